@@ -1,0 +1,50 @@
+//! What a malformed call returns.
+
+use std::fmt;
+
+/// Why a call was refused. Nothing was written to any output.
+///
+/// Only the *call* can be malformed: lengths that differ, or a parameter that holds for the whole batch and is out of
+/// range. A single bad ray is not an error: it gets pdf 0 and weight 0 and is counted in [`Counts`](crate::Counts).
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Error {
+    /// A column has another length than the rest of the batch.
+    Length {
+        /// The column, as it is named in the call, such as `rays.t_max`.
+        field: &'static str,
+        /// Its length.
+        length: usize,
+        /// The length of the batch, which is that of `rays.origin[0]`.
+        expected: usize,
+    },
+    /// A parameter is out of its range.
+    Value {
+        /// The parameter, such as `g`.
+        field: &'static str,
+        /// The offending value.
+        value: f32,
+        /// The range, in words.
+        expected: &'static str,
+    },
+}
+
+impl Error {
+    /// `Ok` if `holds`, else an [`Error::Value`].
+    pub(crate) fn unless(holds: bool, field: &'static str, value: f32, expected: &'static str) -> Result<(), Self> {
+        if holds { Ok(()) } else { Err(Self::Value { field, value, expected }) }
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Length { field, length, expected } => {
+                write!(f, "{field} has {length} elements, the batch has {expected}")
+            }
+            Self::Value { field, value, expected } => write!(f, "{field} is {value}, expected {expected}"),
+        }
+    }
+}
+
+impl std::error::Error for Error {}

@@ -1,0 +1,1 @@
+//! The truth in f64, scalar and plain.

@@ -1,0 +1,2 @@
+//! The `airlight` command.
+fn main() {}
