@@ -266,6 +266,16 @@ mod tests {
     }
 
     #[test]
+    fn an_emitter_on_the_line_is_beside_it() {
+        let scene = |h| straight((1.0, 9.0), (5.0, h), Some(Vec3::NEG_X), (0.0, 1.0, 0.0));
+        assert_close(scene(0.0).h(), 4e-12, 1e-15);
+        assert_close(scene(1e-9).h(), f64::from(1e-9f32), 1e-15);
+        assert_eq!(scene(0.0).alpha(), 0.0);
+        assert_close(scene(0.0).lit().unwrap().1, 5.0, 1e-15);
+        assert_eq!(straight((5.0, 9.0), (5.0, 0.0), None, (0.0, 1.0, 0.0)).h(), 1e-18);
+    }
+
+    #[test]
     fn without_absorption_and_isotropic_the_radiance_is_elementary() {
         let (mu_s, up) = (1e-30, Some(Vec3::NEG_Y));
         for interval in [(0.0, 9.0), (0.0, f32::INFINITY), (4.0, 4.000001), (7.0, 1e6)] {
