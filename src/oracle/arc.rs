@@ -204,6 +204,14 @@ mod tests {
         assert_close(arc.integral_of_cosine(arc.start(), foot), 0.5f64.sqrt(), 1e-15);
     }
 
+    #[test]
+    fn an_angle_between_directions_has_all_its_digits() {
+        let arc = Arc::new(1.0, 5.0, (0.0, 11.0), None).unwrap();
+        let near_the_end = Angle { from_a: arc.width(), to_b: 1e-20 };
+        assert_eq!(Angle::between(near_the_end, arc.end()), 1e-20);
+        assert_eq!(Angle::between(arc.start(), arc.at_odds(-50.0)), arc.width() / (1.0 + 50f64.exp()));
+    }
+
     /// On a long ray past a near emitter, both ends are resolved, and so is what lies between.
     #[test]
     fn a_direction_has_its_distance() {

@@ -123,6 +123,22 @@ mod tests {
         }
 
         #[test]
+        fn outside_there_is_nothing(scene in scene()) {
+            for strategy in Strategy::ALL {
+                let Some(lit) = scene.lit() else {
+                    prop_assert!(scene.pdf(strategy, scene.t_min) == 0.0 && scene.invert(strategy, 0.5).is_nan());
+                    continue;
+                };
+                let (first, last) = if strategy == Strategy::Transmittance { scene.interval() } else { lit };
+                for (t, cdf) in [(first.next_down(), 0.0), (last.next_up(), 1.0)] {
+                    prop_assert!(scene.pdf(strategy, t) == 0.0, "{strategy} at {t}");
+                    prop_assert!(scene.cdf(strategy, t) == cdf, "{strategy} at {t}");
+                }
+                prop_assert!(scene.invert(strategy, 0.0) == first && scene.invert(strategy, 1.0) == last);
+            }
+        }
+
+        #[test]
         fn the_density_is_the_slope_of_its_distribution(scene in scene(), u in [0f64..=1.0, 0f64..=1.0]) {
             for strategy in Strategy::ALL {
                 if scene.lit().is_none() {
