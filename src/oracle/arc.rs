@@ -33,8 +33,8 @@ impl Angle {
 
 /// The part from `t_a` to `t_b` of a ray, where `N > 0` between the ends.
 ///
-/// With `theta` come its complements `psi = pi/2 + theta` and `chi = pi/2 - theta`, the ray's angles with the line to the
-/// emitter: they, not `theta`, resolve the far ends of a long ray, where `theta` is nearly -pi/2 and pi/2.
+/// With `theta` come its complements `psi = pi/2 + theta` and `chi = pi/2 - theta`, the ray's angles with the line to
+/// the emitter: they, not `theta`, resolve the far ends of a long ray, where `theta` is nearly -pi/2 and pi/2.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Arc {
     pub(super) t_a: f64,
@@ -151,7 +151,8 @@ impl Arc {
         n.max(0.0)
     }
 
-    /// The integral of `N` over the directions from `lower` to `upper`, `2 sin((theta_1 - theta_0)/2) N((theta_0 + theta_1)/2)`.
+    /// The integral of `N` over the directions from `lower` to `upper`: twice the sine of half the angle between them,
+    /// times `N` in the middle.
     pub(super) fn integral_of_cosine(&self, lower: Angle, upper: Angle) -> f64 {
         let width = Angle::between(lower, upper);
         if self.cosines.is_none() {

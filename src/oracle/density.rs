@@ -6,7 +6,7 @@
 //! | `EquiAngular` | 1 | `theta` | the lit part |
 //! | `PointNormal` | `N` | `theta` | the lit part |
 //! | `TaylorTransmittance` | `N P(min(theta, theta_c))`, `P` the polynomial (4)-(10) for `mu_t h` up to 32 | `theta` | the lit part |
-//! | `TaylorPhase` | `N P(min(s theta, theta_c))`, `P` the polynomial (13)-(19) for `|g|`, `s` the sign of `g` | `theta` | the lit part |
+//! | `TaylorPhase` | `N P(min(s theta, theta_c))`, `P` the polynomial (13)-(19) for `abs(g)`, `s` the sign of `g` | `theta` | the lit part |
 
 use super::angular::{Angular, Shape, Taylor};
 use super::arc::Arc;
@@ -20,8 +20,8 @@ enum Density {
     Angle(Angular),
 }
 
-/// The density of a strategy, over distance. A scene without a [lit](Scene::lit) part has none: its pdf is 0, and its cdf
-/// and the inverse are NaN.
+/// The density of a strategy, over distance. A scene without a [lit](Scene::lit) part has none: its pdf is 0, and its
+/// cdf and the inverse are NaN.
 impl Scene {
     /// The probability of a distance of at most `t` \[m\].
     #[must_use]
@@ -117,7 +117,7 @@ mod tests {
                     let (first, last) = if strategy == Strategy::Transmittance { scene.interval() } else { (t_a, t_b) };
                     prop_assert!((first..=last).contains(&t), "{strategy}: {t}");
                     let error = (scene.cdf(strategy, t) - u).abs();
-                    prop_assert!(error <= 1e-12 + of_rounding(&scene, strategy, t), "{strategy}: {error:e} at u = {u}, t = {t}");
+                    prop_assert!(error <= 1e-12 + of_rounding(&scene, strategy, t), "{strategy}: {error:e} at u = {u}");
                 }
             }
         }

@@ -30,7 +30,8 @@ impl Scene {
     /// The scene that the f32 values describe.
     #[must_use]
     pub fn new(ray: &Ray, emitter: &Emitter, medium: &Medium) -> Self {
-        // Cross products of f32 values are as good as exact in f64. Of a rounded unit vector they would lose the small h.
+        // Products of f32 values are as good as exact in f64: a small h keeps its digits. Of a rounded unit vector it
+        // would lose them.
         let d = ray.direction().as_dvec3();
         let w = ray.origin().as_dvec3() - emitter.position().as_dvec3();
         let w_cross_d = w.cross(d);
@@ -149,8 +150,8 @@ impl Scene {
     pub fn radiance(&self) -> f64 {
         let Some(arc) = &self.arc else { return 0.0 };
         let sign = if self.g < 0.0 { -1.0 } else { 1.0 };
-        // T, rho and N vary fastest towards the ends of the arc, over angles of any size. As a function of the logarithm of
-        // the odds of the angle every such layer is as wide as any other. 1/r^2 goes, for dt/r^2 = dtheta/h.
+        // T, rho and N vary fastest towards the ends of the arc, over angles of any size. As a function of the logarithm
+        // of the odds of the angle every such layer is as wide as any other. 1/r^2 goes, for dt/r^2 = dtheta/h.
         let integrand = |s: f64| {
             let angle = arc.at_odds(s);
             let path = arc.t(angle) - self.t_min + self.h / arc.cos_theta(angle);
