@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 /// - The normal is taken as it is: its length scales `N`.
 /// - `mu_t` is the medium's f32 sum.
 /// - `t_max` is at most [`FARTHEST`].
-/// - `h` is at least 1e-18 m and at least 1e-12 `|t_min - t_h|`: an emitter on the ray's line is treated as one beside
+/// - `h` is at least 1e-18 m and at least 1e-9 of `|t_h|` and `|t_min - t_h|`: an emitter on the ray's line is treated as one beside
 ///   it. `alpha h` stays what it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scene {
@@ -38,7 +38,8 @@ impl Scene {
         let foot = d.cross(w_cross_d) / d.length_squared(); // seen from the emitter
         let (t_min, t_max) = (f64::from(ray.t_min()), f64::from(ray.t_max().min(FARTHEST)));
         let t_h = -w.dot(d) / d.length();
-        let h = (w_cross_d.length() / d.length()).max(1e-18).max(1e-12 * (t_min - t_h).abs());
+        let scale = t_h.abs().max((t_min - t_h).abs());
+        let h = (w_cross_d.length() / d.length()).max(1e-18).max(1e-9 * scale);
         let normal = emitter.normal().map(|n| {
             let n = n.as_dvec3();
             Normal { alpha_h: n.dot(foot), beta: n.dot(d) / d.length() }
