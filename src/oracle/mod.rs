@@ -1,1 +1,30 @@
-//! The truth in f64, scalar and plain.
+//! The truth, in f64: one ray at a time, plain and slow, to test the sampler against.
+//!
+//! Nothing here is shared with the kernels but the types that go in. [`Scene`] has the integrand and its integral by
+//! quadrature, and each [`Strategy`](crate::Strategy)'s density, distribution and inverse; [`paper`] the published
+//! equations; [`quadrature`] the integrals.
+//!
+//! The symbols, with `x(t)` the point of the ray at `t` and `y` the emitter:
+//!
+//! | | |
+//! |---|---|
+//! | `t_h` | the `t` of the foot of the perpendicular from `y` onto the ray's line, signed \[m\] |
+//! | `h` | the distance from `y` to that line \[m\] |
+//! | `t'` | `t - t_h` \[m\] |
+//! | `r` | `|x(t) - y| = sqrt(h^2 + t'^2)` \[m\] |
+//! | `theta` | `atan(t'/h)`, the angle at the emitter from the perpendicular \[rad\] |
+//! | `N` | `max(0, n.(x(t) - y)/r) = max(0, alpha cos theta + beta sin theta)`; 1 without a normal |
+//! | `T` | `exp(-mu_t (t - t_min + r))`, the transmittance from the emitter to the start of the medium |
+//! | `rho` | the phase function of Henyey and Greenstein \[1/sr\] |
+
+mod angular;
+#[cfg(test)]
+mod arbitrary;
+mod arc;
+mod density;
+mod distance;
+pub mod paper;
+pub mod quadrature;
+mod scene;
+
+pub use scene::Scene;

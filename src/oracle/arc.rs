@@ -1,0 +1,175 @@
+//! The lit part of a ray as an arc of directions seen from the emitter.
+
+use std::f64::consts::FRAC_PI_2;
+
+/// `alpha h` \[m\] and `beta`, of an emitter with a normal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Normal {
+    pub(super) alpha_h: f64,
+    pub(super) beta: f64,
+}
+
+/// A direction of the arc, by its angles from the start and to the end \[rad\].
+///
+/// One of them would do, but not with all digits near the other end.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Angle {
+    pub(super) from_a: f64,
+    pub(super) to_b: f64,
+}
+
+impl Angle {
+    /// The angle from `lower` up to `upper`, as the difference of the smaller numbers.
+    pub(super) fn between(lower: Self, upper: Self) -> f64 {
+        if lower.to_b < upper.from_a { lower.to_b - upper.to_b } else { upper.from_a - lower.from_a }
+    }
+
+    /// `lower` at `s` = 0, `upper` at `s` = 1.
+    pub(super) fn lerp(lower: Self, upper: Self, s: f64) -> Self {
+        let mix = |x: f64, y: f64| (1.0 - s) * x + s * y;
+        Self { from_a: mix(lower.from_a, upper.from_a), to_b: mix(lower.to_b, upper.to_b) }
+    }
+}
+
+/// The part from `t_a` to `t_b` of a ray, where `N > 0` between the ends.
+///
+/// With `theta` come its complements `psi = pi/2 + theta` and `chi = pi/2 - theta`, the ray's angles with the line to the
+/// emitter: they, not `theta`, resolve the far ends of a long ray, where `theta` is nearly -pi/2 and pi/2.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Arc {
+    pub(super) t_a: f64,
+    pub(super) t_b: f64,
+    /// `t_a - t_h` and `t_b - t_h`.
+    a: f64,
+    b: f64,
+    h: f64,
+    t_h: f64,
+    psi_a: f64,
+    chi_b: f64,
+    /// The subtended angle `theta_b - theta_a`.
+    width: f64,
+    /// `N` and `dN/dtheta` at both ends.
+    cosines: Option<[(f64, f64); 2]>,
+}
+
+impl Arc {
+    /// The part of `[t_min, t_max]` with `N > 0`, if there is one.
+    pub(super) fn new(h: f64, t_h: f64, (t_min, t_max): (f64, f64), normal: Option<Normal>) -> Option<Self> {
+        let (mut t_a, mut t_b, mut a, mut b) = (t_min, t_max, t_min - t_h, t_max - t_h);
+        // Of N: r N = alpha h + beta t' is linear along the ray.
+        let height = |n: Normal, t_prime: f64| n.alpha_h + n.beta * t_prime;
+        let (mut height_a, mut height_b) = (1.0, 1.0);
+        if let Some(n) = normal {
+            (height_a, height_b) = (height(n, a), height(n, b));
+            if height_a <= 0.0 && height_b <= 0.0 {
+                return None;
+            }
+            let horizon = -n.alpha_h / n.beta;
+            if height_a <= 0.0 {
+                (t_a, a, height_a) = (t_h + horizon, horizon, 0.0);
+            }
+            if height_b <= 0.0 {
+                (t_b, b, height_b) = (t_h + horizon, horizon, 0.0);
+            }
+        }
+        if t_a >= t_b {
+            return None;
+        }
+        let (r_a, r_b) = (a.hypot(h), b.hypot(h));
+        let cosines = normal.map(|n| {
+            // dN/dtheta = beta cos theta - alpha sin theta
+            let slope = |t_prime: f64, r: f64| (n.beta * h - n.alpha_h * (t_prime / h)) / r;
+            [(height_a / r_a, slope(a, r_a)), (height_b / r_b, slope(b, r_b))]
+        });
+        let width = subtended(h, t_b - t_a, a, b);
+        Some(Self { t_a, t_b, a, b, h, t_h, psi_a: h.atan2(-a), chi_b: h.atan2(b), width, cosines })
+    }
+
+    pub(super) fn start(&self) -> Angle {
+        Angle { from_a: 0.0, to_b: self.width }
+    }
+
+    pub(super) fn end(&self) -> Angle {
+        Angle { from_a: self.width, to_b: 0.0 }
+    }
+
+    /// The direction `s` \[rad\] after the start.
+    pub(super) fn after(&self, s: f64) -> Angle {
+        Angle { from_a: s, to_b: self.width - s }
+    }
+
+    /// The direction whose angles from the start and to the end are as `exp(s)` to 1.
+    pub(super) fn at_odds(&self, s: f64) -> Angle {
+        Angle { from_a: self.width / (1.0 + (-s).exp()), to_b: self.width / (1.0 + s.exp()) }
+    }
+
+    pub(super) fn width(&self) -> f64 {
+        self.width
+    }
+
+    /// The direction of the point at `t` \[m\] between `t_a` and `t_b`.
+    pub(super) fn at(&self, t: f64) -> Angle {
+        let t_prime = t - self.t_h;
+        Angle {
+            from_a: subtended(self.h, t - self.t_a, self.a, t_prime),
+            to_b: subtended(self.h, self.t_b - t, t_prime, self.b),
+        }
+    }
+
+    /// The distance \[m\] of the point in a direction, from the nearer end by the law of sines.
+    pub(super) fn t(&self, angle: Angle) -> f64 {
+        let cos_theta = self.cos_theta(angle);
+        let after_a = self.a.hypot(self.h) * angle.from_a.sin() / cos_theta;
+        let before_b = self.b.hypot(self.h) * angle.to_b.sin() / cos_theta;
+        if after_a <= before_b { (self.t_a + after_a).min(self.t_b) } else { (self.t_b - before_b).max(self.t_a) }
+    }
+
+    /// `theta` \[rad\] of a direction.
+    pub(super) fn theta(&self, angle: Angle) -> f64 {
+        self.psi(angle) - FRAC_PI_2
+    }
+
+    /// `cos theta = h/r`.
+    pub(super) fn cos_theta(&self, angle: Angle) -> f64 {
+        self.psi(angle).min(self.chi(angle)).sin()
+    }
+
+    /// `1 + sign sin theta`.
+    pub(super) fn one_plus_sin_theta(&self, sign: f64, angle: Angle) -> f64 {
+        let complement = if sign > 0.0 { self.psi(angle) } else { self.chi(angle) };
+        2.0 * (0.5 * complement).sin().powi(2)
+    }
+
+    /// `N`, from the end where it is smaller, or 1 without a normal.
+    pub(super) fn cosine(&self, angle: Angle) -> f64 {
+        let Some([(n_a, slope_a), (n_b, slope_b)]) = self.cosines else { return 1.0 };
+        let n = if n_a < n_b {
+            n_a * angle.from_a.cos() + slope_a * angle.from_a.sin()
+        } else {
+            n_b * angle.to_b.cos() - slope_b * angle.to_b.sin()
+        };
+        n.max(0.0)
+    }
+
+    /// The integral of `N` over the directions from `lower` to `upper`, `2 sin((theta_1 - theta_0)/2) N((theta_0 + theta_1)/2)`.
+    pub(super) fn integral_of_cosine(&self, lower: Angle, upper: Angle) -> f64 {
+        let width = Angle::between(lower, upper);
+        if self.cosines.is_none() {
+            return width;
+        }
+        2.0 * (0.5 * width).sin() * self.cosine(Angle::lerp(lower, upper, 0.5))
+    }
+
+    fn psi(&self, angle: Angle) -> f64 {
+        self.psi_a + angle.from_a
+    }
+
+    fn chi(&self, angle: Angle) -> f64 {
+        self.chi_b + angle.to_b
+    }
+}
+
+/// The angle at the emitter between the points at `a` and `b` from the perpendicular's foot, `length` apart \[m\].
+pub(super) fn subtended(h: f64, length: f64, a: f64, b: f64) -> f64 {
+    (h * length).atan2(h * h + a * b)
+}

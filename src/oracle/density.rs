@@ -1,0 +1,142 @@
+//! What each strategy samples: its density, its distribution, and the inverse of that.
+//!
+//! | strategy | proportional to | over | on |
+//! |---|---|---|---|
+//! | `Transmittance` | `exp(-mu_t t)` | `t` | `[t_min, t_max]` |
+//! | `EquiAngular` | 1 | `theta` | the lit part |
+//! | `PointNormal` | `N` | `theta` | the lit part |
+//! | `TaylorTransmittance` | `N P(min(theta, theta_c))`, `P` the polynomial (4)-(10) for `mu_t h` up to 32 | `theta` | the lit part |
+//! | `TaylorPhase` | `N P(min(s theta, theta_c))`, `P` the polynomial (13)-(19) for `|g|`, `s` the sign of `g` | `theta` | the lit part |
+
+use super::angular::{Angular, Shape, Taylor};
+use super::arc::Arc;
+use super::distance::Exponential;
+use super::scene::Scene;
+use crate::Strategy;
+
+/// A density over one of the two variables.
+enum Density {
+    Distance(Exponential),
+    Angle(Angular),
+}
+
+/// The density of a strategy, over distance. A scene without a [lit](Scene::lit) part has none: its pdf is 0, and its cdf
+/// and the inverse are NaN.
+impl Scene {
+    /// The probability of a distance of at most `t` \[m\].
+    #[must_use]
+    pub fn cdf(&self, strategy: Strategy, t: f64) -> f64 {
+        let Some((density, t_a, t_b)) = self.density(strategy) else { return f64::NAN };
+        if t <= t_a {
+            return 0.0;
+        }
+        if t >= t_b {
+            return 1.0;
+        }
+        match density {
+            Density::Distance(exponential) => exponential.cdf(t),
+            Density::Angle(angular) => angular.cdf(t),
+        }
+    }
+
+    /// The probability density at `t` \[m\], in 1/m; 0 outside the part that is sampled.
+    #[must_use]
+    pub fn pdf(&self, strategy: Strategy, t: f64) -> f64 {
+        match self.density(strategy) {
+            Some((density, t_a, t_b)) if (t_a..=t_b).contains(&t) => match density {
+                Density::Distance(exponential) => exponential.pdf(t),
+                // dtheta/dt = h/r^2
+                Density::Angle(angular) => angular.pdf(t) * self.h / self.r(t).powi(2),
+            },
+            _ => 0.0,
+        }
+    }
+
+    /// The distance \[m\] whose [`cdf`](Self::cdf) is `u`; the ends for `u` = 0 and 1.
+    #[must_use]
+    pub fn invert(&self, strategy: Strategy, u: f64) -> f64 {
+        let Some((density, t_a, t_b)) = self.density(strategy) else { return f64::NAN };
+        if u <= 0.0 {
+            return t_a;
+        }
+        if u >= 1.0 {
+            return t_b;
+        }
+        match density {
+            Density::Distance(exponential) => exponential.invert(u),
+            Density::Angle(angular) => angular.invert(u),
+        }
+    }
+
+    /// The density of a strategy and the interval \[m\] that it is one on.
+    fn density(&self, strategy: Strategy) -> Option<(Density, f64, f64)> {
+        let arc = self.arc?;
+        let over_angle = |arc: Arc, shape| (Density::Angle(Angular::new(arc, shape)), arc.t_a, arc.t_b);
+        Some(match strategy {
+            Strategy::Transmittance => {
+                (Density::Distance(Exponential::new(self.mu_t, self.interval())), self.t_min, self.t_max)
+            }
+            Strategy::EquiAngular => over_angle(arc, Shape::Uniform),
+            Strategy::PointNormal => over_angle(arc, Shape::Cosine),
+            Strategy::TaylorTransmittance => over_angle(arc, Shape::Taylor(Taylor::transmittance(self.mu_t * self.h))),
+            Strategy::TaylorPhase => over_angle(arc, Shape::Taylor(Taylor::phase(self.g))),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::angular::LARGEST_M;
+    use super::super::arbitrary::{config, scene, uniform};
+    use super::super::paper::{phase_clamp, transmittance_clamp};
+    use super::super::quadrature::integrate_pieces;
+    use super::*;
+    use proptest::{prop_assert, proptest};
+
+    /// The error of a cdf that the rounding of `t` alone makes.
+    fn of_rounding(scene: &Scene, strategy: Strategy, t: f64) -> f64 {
+        4.0 * f64::EPSILON * t.abs().max((t - scene.t_h).abs()) * scene.pdf(strategy, t)
+    }
+
+    /// Where a polynomial ends: a kink within a sixteenth of the end of an interval escapes the quadrature.
+    fn kinks(scene: &Scene) -> [f64; 3] {
+        let of_t = transmittance_clamp((scene.mu_t * scene.h).min(LARGEST_M));
+        let of_rho = phase_clamp(scene.g.abs());
+        [of_t, of_rho, -of_rho].map(|theta| scene.t_h + scene.h * theta.tan())
+    }
+
+    proptest! {
+        #![proptest_config(config(512))]
+
+        #[test]
+        fn the_inverse_inverts(scene in scene(), u in uniform()) {
+            for strategy in Strategy::ALL {
+                let Some((t_a, t_b)) = scene.lit() else { continue };
+                for u in [u, 1.0 - u] {
+                    let t = scene.invert(strategy, u);
+                    let (first, last) = if strategy == Strategy::Transmittance { scene.interval() } else { (t_a, t_b) };
+                    prop_assert!((first..=last).contains(&t), "{strategy}: {t}");
+                    let error = (scene.cdf(strategy, t) - u).abs();
+                    prop_assert!(error <= 1e-12 + of_rounding(&scene, strategy, t), "{strategy}: {error:e} at u = {u}, t = {t}");
+                }
+            }
+        }
+
+        #[test]
+        fn the_density_is_the_slope_of_its_distribution(scene in scene(), u in [0f64..=1.0, 0f64..=1.0]) {
+            for strategy in Strategy::ALL {
+                if scene.lit().is_none() {
+                    continue;
+                }
+                let (t0, t1) = (scene.invert(strategy, u[0].min(u[1])), scene.invert(strategy, u[0].max(u[1])));
+                let mut ends = vec![t0, 0.5 * (t0 + t1), t1];
+                ends.extend(kinks(&scene).into_iter().filter(|t| (t0..t1).contains(t)));
+                ends.sort_by(f64::total_cmp);
+                let mass = integrate_pieces(|t| scene.pdf(strategy, t), &ends, 1e-13);
+                let expected = scene.cdf(strategy, t1) - scene.cdf(strategy, t0);
+                let rounding = of_rounding(&scene, strategy, t0) + of_rounding(&scene, strategy, t1);
+                prop_assert!((mass - expected).abs() <= 1e-10 + rounding, "{strategy}: {mass} is not {expected}");
+            }
+        }
+    }
+}
