@@ -2,6 +2,8 @@
 
 use crate::npy;
 use anyhow::{Context, Result, ensure};
+use serde::Serialize;
+use std::fmt::Display;
 use std::fs;
 use std::io::{self, Cursor, ErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -40,8 +42,21 @@ impl Target {
     }
 }
 
+/// Writes figures as JSON to `json`, and as a table to standard output unless the JSON goes there.
+pub(crate) fn report<F: Serialize + Display>(figures: &F, json: Option<&Target>) -> Result<()> {
+    if let Some(json) = json {
+        let mut text = serde_json::to_vec_pretty(figures)?;
+        text.push(b'\n');
+        json.write(&text)?;
+    }
+    match json {
+        Some(Target::Stdout) => Ok(()),
+        _ => print(figures.to_string().as_bytes()),
+    }
+}
+
 /// Writes to standard output; a reader who has seen enough is no failure.
-pub(crate) fn print(bytes: &[u8]) -> Result<()> {
+fn print(bytes: &[u8]) -> Result<()> {
     let mut stdout = io::stdout().lock();
     match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(error).context("cannot write to standard output"),

@@ -28,8 +28,7 @@ pub(crate) struct Args {
     /// Rays to sample with each strategy, by repeating the wavefront with fresh variates
     #[arg(long, value_name = "RAYS", default_value = "16000000", value_parser = arguments::positive)]
     rays: usize,
-    /// Strategy to run, may be repeated [default: all]
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", help = format!("Strategy to run, may be repeated [default: all of {}]", names()))]
     strategy: Vec<Strategy>,
     /// Rays of the wavefront to compare with quadrature
     #[arg(long, value_name = "RAYS", default_value_t = 4096)]
@@ -64,18 +63,13 @@ pub(crate) fn run(args: &Args) -> Result<()> {
         let Columns { t, pdf, weight } = &columns;
         output.write(&output::npz(&[("t", t), ("pdf", pdf), ("weight", weight)])?)?;
     }
-    let table = figures.to_string();
-    match json {
-        Some(Target::Stdout) => output::print(&figures.json()?),
-        Some(file) => file.write(&figures.json()?).and_then(|()| output::print(table.as_bytes())),
-        None => output::print(table.as_bytes()),
-    }
+    output::report(&figures, json.as_ref())
 }
 
 /// The figures of every strategy, and the first repetition of the last.
 fn measure(args: &Args, wavefront: &Wavefront) -> Result<(Figures, Columns)> {
     let strategies = if args.strategy.is_empty() { &Strategy::ALL[..] } else { &args.strategy };
-    let progress = progress(strategies.len() * args.rays)?;
+    let progress = progress(strategies.len().saturating_mul(args.rays))?;
     progress.set_message("quadrature");
     let check = Check::new(wavefront, &args.medium, args.rays.min(wavefront.len()), args.check);
 
@@ -83,7 +77,7 @@ fn measure(args: &Args, wavefront: &Wavefront) -> Result<(Figures, Columns)> {
     let mut first = Columns::default();
     for &strategy in strategies {
         progress.set_message(strategy.name());
-        let run = Run::new(args, wavefront, strategy, &progress)?;
+        let run = sample(args, wavefront, strategy, &progress)?;
         rows.push(run.row(args, wavefront, &check));
         first = run.first;
     }
@@ -118,39 +112,39 @@ struct Columns {
     weight: Vec<f32>,
 }
 
-impl Run {
-    /// Samples the wavefront in batches of one repetition; the last one may be a part of it.
-    fn new(args: &Args, wavefront: &Wavefront, strategy: Strategy, progress: &ProgressBar) -> Result<Self> {
-        let reached = args.rays.min(wavefront.len());
-        let sampler = Sampler::new(strategy);
-        let media = Media::One(args.medium);
-        let (mut counts, mut sampling) = (Counts::default(), Duration::ZERO);
-        let mut strata = Strata::new(reached);
-        let mut u = wavefront.u[..reached].to_vec();
-        let mut columns = Columns { t: vec![0.0; reached], pdf: vec![0.0; reached], weight: vec![0.0; reached] };
-        let mut first = Columns::default();
+/// Samples the wavefront in batches of one repetition; the last one may be a part of it.
+fn sample(args: &Args, wavefront: &Wavefront, strategy: Strategy, progress: &ProgressBar) -> Result<Run> {
+    let reached = args.rays.min(wavefront.len());
+    let sampler = Sampler::new(strategy);
+    let media = Media::One(args.medium);
+    let (mut counts, mut sampling) = (Counts::default(), Duration::ZERO);
+    let mut strata = Strata::new(reached);
+    let mut u = wavefront.u[..reached].to_vec();
+    let mut columns = Columns::new(reached);
+    let mut first = Columns::default();
 
-        for start in (0..args.rays).step_by(reached) {
-            let count = reached.min(args.rays - start);
-            if start > 0 {
-                variates::fill(args.seed, start as u64, &mut u[..count]);
-            }
-            let rays = wavefront.rays(count);
-            let emitters = wavefront.emitters(count);
-            let mut samples = columns.first(count);
-            let clock = Instant::now();
-            counts = counts + sampler.sample(&rays, &emitters, &media, &u[..count], &mut samples)?;
-            sampling += clock.elapsed();
-
-            strata.add(&columns.weight[..count]);
-            if start == 0 {
-                first = columns.clone();
-            }
-            progress.inc(count as u64);
+    for start in (0..args.rays).step_by(reached) {
+        let count = reached.min(args.rays - start);
+        if start > 0 {
+            variates::fill(args.seed, start as u64, &mut u[..count]);
         }
-        Ok(Self { strategy, counts, sampling, strata, first })
-    }
+        let rays = wavefront.rays(count);
+        let emitters = wavefront.emitters(count);
+        let mut samples = columns.samples(count);
+        let clock = Instant::now();
+        counts = counts + sampler.sample(&rays, &emitters, &media, &u[..count], &mut samples)?;
+        sampling += clock.elapsed();
 
+        strata.add(&columns.weight[..count]);
+        if start == 0 {
+            first = columns.clone();
+        }
+        progress.inc(count as u64);
+    }
+    Ok(Run { strategy, counts, sampling, strata, first })
+}
+
+impl Run {
     fn row(&self, args: &Args, wavefront: &Wavefront, check: &Check) -> Row {
         let whole = self.strata.all();
         let subset = self.strata.of(&check.rays);
@@ -176,25 +170,31 @@ impl Run {
     }
 }
 
+impl Columns {
+    fn new(length: usize) -> Self {
+        let column = vec![0.0; length];
+        Self { t: column.clone(), pdf: column.clone(), weight: column }
+    }
+
+    /// The first `count` rows, to be written.
+    fn samples(&mut self, count: usize) -> Samples<'_> {
+        let Self { t, pdf, weight } = self;
+        Samples { t: &mut t[..count], pdf: &mut pdf[..count], weight: Some(&mut weight[..count]), r: None }
+    }
+}
+
 /// The smallest of the values, which ascend, that a share of at least `p` of them does not exceed.
 fn quantile(ascending: &[f64], p: f64) -> Option<f64> {
     let rank = (p * ascending.len() as f64).ceil() as usize;
     ascending.get(rank.max(1) - 1).copied()
 }
 
-impl Columns {
-    fn first(&mut self, count: usize) -> Samples<'_> {
-        Samples {
-            t: &mut self.t[..count],
-            pdf: &mut self.pdf[..count],
-            weight: Some(&mut self.weight[..count]),
-            r: None,
-        }
-    }
-}
-
 /// A bar on standard error, hidden where that is no terminal.
 fn progress(rays: usize) -> Result<ProgressBar> {
     let style = ProgressStyle::with_template("{msg:20} {wide_bar} {percent:>3} %  {eta}")?;
     Ok(ProgressBar::new(rays as u64).with_style(style))
+}
+
+fn names() -> String {
+    Strategy::ALL.map(Strategy::name).join(", ")
 }

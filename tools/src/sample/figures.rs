@@ -1,7 +1,6 @@
 //! What `airlight sample` found, as JSON and as a table.
 
 use airlight::Medium;
-use anyhow::Result;
 use comfy_table::{CellAlignment, Table, presets};
 use serde::Serialize;
 use std::fmt;
@@ -57,19 +56,10 @@ pub(super) struct Row {
     pub(super) cdf_max: Option<f64>,
 }
 
-impl Figures {
-    /// The JSON text.
-    pub(super) fn json(&self) -> Result<Vec<u8>> {
-        let mut text = serde_json::to_vec_pretty(self)?;
-        text.push(b'\n');
-        Ok(text)
-    }
-}
-
 impl fmt::Display for Figures {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Coefficients { mu_a, mu_s, g } = self.medium;
-        writeln!(f, "{}: {} rays, sampled {} times", self.wavefront, self.wavefront_rays, self.rays)?;
+        writeln!(f, "{}: {} rays, {} samples per strategy", self.wavefront, self.wavefront_rays, self.rays)?;
         writeln!(f, "medium: mu_a {mu_a} /m, mu_s {mu_s} /m, g {g}; seed {}, threads {}", self.seed, self.threads)?;
 
         let mut speed = table(["strategy", "Msamples/s", "sampled", "empty", "invalid", "bisected"]);
