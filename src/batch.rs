@@ -1,7 +1,11 @@
 //! Borrowed columns of a batch: rays, emitters, media in, samples out, and how they are split.
 
 use crate::Error;
+use crate::geometry::{EmitterLanes, RayLanes};
+use crate::integrand::MediumLanes;
 use crate::scene::{Emitter, Medium};
+use crate::simd::Isa;
+use core::ops::Range;
 
 /// A batch of rays as a structure of arrays; every column has the length of the batch and any alignment.
 ///
@@ -86,5 +90,158 @@ impl std::ops::Add for Counts {
             invalid: self.invalid + o.invalid,
             bisected: self.bisected + o.bisected,
         }
+    }
+}
+
+/// The columns that a call reads: the batch, and one number per ray (the variate, or a distance).
+#[derive(Clone, Copy)]
+pub(crate) struct Inputs<'a> {
+    pub(crate) rays: Rays<'a>,
+    pub(crate) emitters: Emitters<'a>,
+    pub(crate) media: Media<'a>,
+    pub(crate) given: &'a [f32],
+}
+
+impl<'a> Inputs<'a> {
+    /// The inputs, if every column has the same length; `name` is that of `given`.
+    pub(crate) fn new(
+        rays: &Rays<'a>,
+        emitters: &Emitters<'a>,
+        media: &Media<'a>,
+        given: &'a [f32],
+        name: &'static str,
+    ) -> Result<Self, Error> {
+        let inputs = Self { rays: *rays, emitters: *emitters, media: *media, given };
+        const O: [&str; 3] = ["rays.origin[0]", "rays.origin[1]", "rays.origin[2]"];
+        const D: [&str; 3] = ["rays.direction[0]", "rays.direction[1]", "rays.direction[2]"];
+        const P: [&str; 3] = ["emitters.position[0]", "emitters.position[1]", "emitters.position[2]"];
+        const N: [&str; 3] = ["emitters.normal[0]", "emitters.normal[1]", "emitters.normal[2]"];
+        for k in 0..3 {
+            inputs.check(O[k], rays.origin[k])?;
+            inputs.check(D[k], rays.direction[k])?;
+        }
+        inputs.check("rays.t_min", rays.t_min)?;
+        inputs.check("rays.t_max", rays.t_max)?;
+        if let Emitters::Each { position, normal } = emitters {
+            for k in 0..3 {
+                inputs.check(P[k], position[k])?;
+                inputs.check(N[k], normal[k])?;
+            }
+        }
+        if let Media::Each { mu_a, mu_s, g } = media {
+            inputs.check("media.mu_a", mu_a)?;
+            inputs.check("media.mu_s", mu_s)?;
+            inputs.check("media.g", g)?;
+        }
+        inputs.check(name, given)?;
+        Ok(inputs)
+    }
+
+    /// `Ok` if `column` has the length of the batch.
+    pub(crate) fn check(&self, field: &'static str, column: &[f32]) -> Result<(), Error> {
+        let (length, expected) = (column.len(), self.len());
+        if length == expected { Ok(()) } else { Err(Error::Length { field, length, expected }) }
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.rays.origin[0].len()
+    }
+
+    /// The rays of `range` alone.
+    pub(crate) fn slice(&self, range: Range<usize>) -> Self {
+        let cut = |column: &'a [f32]| &column[range.clone()];
+        Self {
+            rays: Rays {
+                origin: self.rays.origin.map(cut),
+                direction: self.rays.direction.map(cut),
+                t_min: cut(self.rays.t_min),
+                t_max: cut(self.rays.t_max),
+            },
+            emitters: match self.emitters {
+                Emitters::Each { position, normal } => {
+                    Emitters::Each { position: position.map(cut), normal: normal.map(cut) }
+                }
+                one => one,
+            },
+            media: match self.media {
+                Media::Each { mu_a, mu_s, g } => Media::Each { mu_a: cut(mu_a), mu_s: cut(mu_s), g: cut(g) },
+                one => one,
+            },
+            given: cut(self.given),
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn ray_lanes<I: Isa>(&self, isa: I, range: Range<usize>) -> RayLanes<I> {
+        let [ox, oy, oz] = self.rays.origin;
+        let [dx, dy, dz] = self.rays.direction;
+        RayLanes {
+            origin: [load(isa, ox, &range), load(isa, oy, &range), load(isa, oz, &range)],
+            direction: [load(isa, dx, &range), load(isa, dy, &range), load(isa, dz, &range)],
+            t_min: load(isa, self.rays.t_min, &range),
+            t_max: load(isa, self.rays.t_max, &range),
+        }
+    }
+}
+
+impl Emitters<'_> {
+    /// The emitters of a lane group; those of the whole batch where there is one.
+    #[inline(always)]
+    pub(crate) fn lanes<I: Isa>(&self, isa: I, range: Range<usize>) -> EmitterLanes<I> {
+        match self {
+            Self::One(emitter) => {
+                let [px, py, pz] = emitter.position().to_array();
+                let [nx, ny, nz] = emitter.normal().unwrap_or_default().to_array();
+                EmitterLanes {
+                    position: [isa.splat(px), isa.splat(py), isa.splat(pz)],
+                    normal: [isa.splat(nx), isa.splat(ny), isa.splat(nz)],
+                }
+            }
+            Self::Each { position: [px, py, pz], normal: [nx, ny, nz] } => EmitterLanes {
+                position: [load(isa, px, &range), load(isa, py, &range), load(isa, pz, &range)],
+                normal: [load(isa, nx, &range), load(isa, ny, &range), load(isa, nz, &range)],
+            },
+        }
+    }
+}
+
+impl Media<'_> {
+    /// The media of a lane group.
+    #[inline(always)]
+    pub(crate) fn lanes<I: Isa>(&self, isa: I, range: Range<usize>) -> MediumLanes<I> {
+        match self {
+            Self::One(m) => MediumLanes::new(isa, isa.splat(m.mu_a()), isa.splat(m.mu_s()), isa.splat(m.g())),
+            Self::Each { mu_a, mu_s, g } => {
+                MediumLanes::new(isa, load(isa, mu_a, &range), load(isa, mu_s, &range), load(isa, g, &range))
+            }
+        }
+    }
+}
+
+/// The lanes of `column` in `range`.
+#[inline(always)]
+fn load<I: Isa>(isa: I, column: &[f32], range: &Range<usize>) -> I::V {
+    isa.load_padded(&column[range.start..range.end])
+}
+
+/// Columns that a call writes.
+pub(crate) trait Outputs: Sized + Send {
+    /// Those of the first `k` rays, and of the rest.
+    fn split_at(self, k: usize) -> (Self, Self);
+}
+
+impl Outputs for &mut [f32] {
+    fn split_at(self, k: usize) -> (Self, Self) {
+        self.split_at_mut(k)
+    }
+}
+
+impl Outputs for Samples<'_> {
+    fn split_at(self, k: usize) -> (Self, Self) {
+        let (t, t_rest) = self.t.split_at_mut(k);
+        let (pdf, pdf_rest) = self.pdf.split_at_mut(k);
+        let (weight, weight_rest) = self.weight.map(|column| column.split_at_mut(k)).unzip();
+        let (r, r_rest) = self.r.map(|column| column.split_at_mut(k)).unzip();
+        (Self { t, pdf, weight, r }, Self { t: t_rest, pdf: pdf_rest, weight: weight_rest, r: r_rest })
     }
 }

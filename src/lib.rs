@@ -1,9 +1,15 @@
 //! airlight
 mod batch;
+mod density;
 mod error;
+mod geometry;
+mod integrand;
+mod inversion;
 pub mod oracle;
+mod road;
 mod sampler;
 mod scene;
+mod simd;
 mod strategy;
 
 pub use batch::{Counts, Emitters, Media, Rays, Samples};

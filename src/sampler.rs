@@ -1,13 +1,16 @@
 //! The public face: sample, pdf and evaluate, for a batch or for one ray.
 
-use crate::batch::{Counts, Emitters, Media, Rays, Samples};
+use crate::batch::{Counts, Emitters, Inputs, Media, Rays, Samples};
 use crate::scene::{Emitter, Medium, Ray};
-use crate::{Error, Strategy};
+use crate::simd::Backend;
+use crate::{Error, Strategy, road};
+use core::slice::{from_mut, from_ref};
 
 /// Samples scattering distances of one density.
 #[derive(Clone, Copy, Debug)]
 pub struct Sampler {
     strategy: Strategy,
+    backend: Backend,
 }
 
 /// One sample, as [`Samples`] holds many.
@@ -27,7 +30,7 @@ impl Sampler {
     /// A sampler of `strategy`.
     #[must_use]
     pub fn new(strategy: Strategy) -> Self {
-        Self { strategy }
+        Self { strategy, backend: Backend::Portable }
     }
 
     /// Its density.
@@ -38,64 +41,129 @@ impl Sampler {
 
     /// Draws one distance per ray from the uniform variates `u` in `[0, 1]`.
     ///
+    /// `t` increases with `u`. What is written for an empty or invalid ray is 0. A variate outside `[0, 1]` makes its
+    /// ray invalid. Equal inputs give equal bits, wherever they stand in a batch and however many threads there are.
+    ///
     /// # Errors
     /// [`Error::Length`] if a column has another length than `rays.origin[0]`. Nothing is written then.
     pub fn sample(
         &self,
-        _rays: &Rays<'_>,
-        _emitters: &Emitters<'_>,
-        _media: &Media<'_>,
-        _u: &[f32],
-        _samples: &mut Samples<'_>,
+        rays: &Rays<'_>,
+        emitters: &Emitters<'_>,
+        media: &Media<'_>,
+        u: &[f32],
+        samples: &mut Samples<'_>,
     ) -> Result<Counts, Error> {
-        Ok(Counts::default())
+        let inputs = Inputs::new(rays, emitters, media, u, "u")?;
+        inputs.check("samples.t", samples.t)?;
+        inputs.check("samples.pdf", samples.pdf)?;
+        if let Some(weight) = &samples.weight {
+            inputs.check("samples.weight", weight)?;
+        }
+        if let Some(r) = &samples.r {
+            inputs.check("samples.r", r)?;
+        }
+        let out = Samples {
+            t: samples.t,
+            pdf: samples.pdf,
+            weight: samples.weight.as_deref_mut(),
+            r: samples.r.as_deref_mut(),
+        };
+        Ok(road::travel::<road::Sample>(self.backend, self.strategy, &inputs, out))
     }
 
     /// The density at given distances `t`, for multiple importance sampling \[1/m\]; 0 outside the sampled interval.
+    ///
+    /// [`Counts::sampled`] counts the rays that have a sample, whether or not it could be at `t`. A NaN in `t` makes
+    /// its ray invalid.
     ///
     /// # Errors
     /// As [`sample`](Self::sample).
     pub fn pdf(
         &self,
-        _rays: &Rays<'_>,
-        _emitters: &Emitters<'_>,
-        _media: &Media<'_>,
-        _t: &[f32],
-        _pdf: &mut [f32],
+        rays: &Rays<'_>,
+        emitters: &Emitters<'_>,
+        media: &Media<'_>,
+        t: &[f32],
+        pdf: &mut [f32],
     ) -> Result<Counts, Error> {
-        Ok(Counts::default())
+        let inputs = Inputs::new(rays, emitters, media, t, "t")?;
+        inputs.check("pdf", pdf)?;
+        Ok(road::travel::<road::Pdf>(self.backend, self.strategy, &inputs, pdf))
     }
 
-    /// The integrand `mu_s T rho N / r^2` at given distances `t` \[1/m^3\], the same for every strategy.
+    /// The integrand `mu_s T rho N / r^2` at given distances `t` \[1/m^3\], the same for every strategy; 0 outside
+    /// `[t_min, t_max]`.
     ///
     /// # Errors
     /// As [`sample`](Self::sample).
     pub fn evaluate(
         &self,
-        _rays: &Rays<'_>,
-        _emitters: &Emitters<'_>,
-        _media: &Media<'_>,
-        _t: &[f32],
-        _integrand: &mut [f32],
+        rays: &Rays<'_>,
+        emitters: &Emitters<'_>,
+        media: &Media<'_>,
+        t: &[f32],
+        integrand: &mut [f32],
     ) -> Result<Counts, Error> {
-        Ok(Counts::default())
+        let inputs = Inputs::new(rays, emitters, media, t, "t")?;
+        inputs.check("integrand", integrand)?;
+        Ok(road::travel::<road::Evaluate>(self.backend, Strategy::EquiAngular, &inputs, integrand))
     }
 
     /// [`sample`](Self::sample) for one ray; `None` if it has no sample.
     #[must_use]
-    pub fn sample_one(&self, _ray: &Ray, _emitter: &Emitter, _medium: &Medium, _u: f32) -> Option<Sample> {
-        None
+    pub fn sample_one(&self, ray: &Ray, emitter: &Emitter, medium: &Medium, u: f32) -> Option<Sample> {
+        let [mut t, mut pdf, mut weight, mut r] = [0.0; 4];
+        let out = Samples {
+            t: from_mut(&mut t),
+            pdf: from_mut(&mut pdf),
+            weight: Some(from_mut(&mut weight)),
+            r: Some(from_mut(&mut r)),
+        };
+        let counts = one::<road::Sample>(self.backend, self.strategy, ray, emitter, medium, u, out);
+        (counts.sampled == 1).then_some(Sample { t, pdf, weight, r })
     }
 
     /// [`pdf`](Self::pdf) for one ray.
     #[must_use]
-    pub fn pdf_one(&self, _ray: &Ray, _emitter: &Emitter, _medium: &Medium, _t: f32) -> f32 {
-        0.0
+    pub fn pdf_one(&self, ray: &Ray, emitter: &Emitter, medium: &Medium, t: f32) -> f32 {
+        let mut pdf = 0.0;
+        one::<road::Pdf>(self.backend, self.strategy, ray, emitter, medium, t, from_mut(&mut pdf));
+        pdf
     }
 
     /// [`evaluate`](Self::evaluate) for one ray.
     #[must_use]
-    pub fn evaluate_one(&self, _ray: &Ray, _emitter: &Emitter, _medium: &Medium, _t: f32) -> f32 {
-        0.0
+    pub fn evaluate_one(&self, ray: &Ray, emitter: &Emitter, medium: &Medium, t: f32) -> f32 {
+        let mut integrand = 0.0;
+        let strategy = Strategy::EquiAngular;
+        one::<road::Evaluate>(self.backend, strategy, ray, emitter, medium, t, from_mut(&mut integrand));
+        integrand
     }
+}
+
+/// A batch of one ray.
+fn one<T: road::Task>(
+    backend: Backend,
+    strategy: Strategy,
+    ray: &Ray,
+    emitter: &Emitter,
+    medium: &Medium,
+    given: f32,
+    out: T::Out<'_>,
+) -> Counts {
+    let (origin, direction) = (ray.origin().to_array(), ray.direction().to_array());
+    let (t_min, t_max) = (ray.t_min(), ray.t_max());
+    let inputs = Inputs {
+        rays: Rays {
+            origin: [0, 1, 2].map(|k| from_ref(&origin[k])),
+            direction: [0, 1, 2].map(|k| from_ref(&direction[k])),
+            t_min: from_ref(&t_min),
+            t_max: from_ref(&t_max),
+        },
+        emitters: Emitters::One(*emitter),
+        media: Media::One(*medium),
+        given: from_ref(&given),
+    };
+    road::travel::<T>(backend, strategy, &inputs, out)
 }

@@ -134,3 +134,76 @@ impl Angular {
         Angle::between(lower, upper) * gauss_legendre(|s| self.weight(Angle::lerp(lower, upper, s)), 0.0, 1.0)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::FRAC_PI_2;
+
+    /// The smallest value of the polynomial over theta, relative to the one at 0.
+    fn smallest(taylor: &Taylor) -> f64 {
+        let theta = |i: i32| FRAC_PI_2 * f64::from(i) / 1000.0;
+        (-1000..=1000)
+            .map(theta)
+            .chain([taylor.kink().clamp(-FRAC_PI_2, FRAC_PI_2)])
+            .map(|theta| taylor.at(theta))
+            .fold(f64::INFINITY, f64::min)
+    }
+
+    #[test]
+    fn the_polynomial_of_the_transmittance_is_positive_up_to_its_clamp() {
+        let (m, least) = (0..=6400)
+            .map(|i| f64::from(i) / 200.0)
+            .map(|m| (m, smallest(&Taylor::transmittance(m))))
+            .min_by(|x, y| x.1.total_cmp(&y.1))
+            .unwrap();
+        assert!(least > 0.013, "{least} at m = {m}");
+    }
+
+    #[test]
+    fn the_polynomial_of_the_phase_function_is_positive_up_to_its_clamp() {
+        for g in (-1000..=1000).map(|i| f64::from(i) / 1000.0) {
+            let least = smallest(&Taylor::phase(g));
+            assert!(least > 0.01, "{least} at g = {g}");
+        }
+    }
+
+    #[test]
+    fn unclamped_that_of_the_transmittance_would_not_be_positive() {
+        let unclamped = Taylor { theta_c: FRAC_PI_2, ..Taylor::transmittance(0.5) };
+        assert!(smallest(&unclamped) < 0.0);
+    }
+
+    #[test]
+    fn the_phase_function_of_minus_g_is_mirrored() {
+        let (forward, backward) = (Taylor::phase(0.6), Taylor::phase(-0.6));
+        for theta in [-1.5, -0.3, 0.0, 0.9, 1.5] {
+            assert_eq!(forward.at(theta), backward.at(-theta));
+        }
+    }
+
+    #[test]
+    fn thick_media_share_one_polynomial() {
+        assert_eq!(Taylor::transmittance(1e30).at(-1.0), Taylor::transmittance(LARGEST_M).at(-1.0));
+    }
+
+    /// To first order in its width, any density on a narrow arc is linear and its distribution that of a trapezoid.
+    #[test]
+    fn narrow_arcs_keep_all_digits() {
+        for (t_h, m, g) in [(-3.0, 0.1, 0.8), (0.3, 2.0, -0.5), (1.0, 40.0, 0.0), (2000.0, 0.0, 0.9)] {
+            let arc = Arc::new(1.0, t_h, (0.0, 1e-9 * (1.0 + t_h * t_h)), None).unwrap();
+            for taylor in [Taylor::transmittance(m), Taylor::phase(g)] {
+                let angular = Angular::new(arc, Shape::Taylor(taylor));
+                for u in [2f64.powi(-24), 0.1, 0.5, 0.9] {
+                    let t = angular.invert(u);
+                    let angle = arc.at(t);
+                    let (a, at, b) = (angular.weight(arc.start()), angular.weight(angle), angular.weight(arc.end()));
+                    let expected = angle.from_a * (a + at) / (arc.width() * (a + b));
+                    for (of, value) in [("cdf", angular.cdf(t)), ("u", u)] {
+                        assert!((value - expected).abs() <= 1e-13 * u, "{of} {value} is not {expected}, t_h = {t_h}");
+                    }
+                }
+            }
+        }
+    }
+}

@@ -37,3 +37,30 @@ impl Exponential {
         self.mu_t == 0.0
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_extinction_is_the_limit_of_little() {
+        let (none, little) = (Exponential::new(0.0, (2.0, 5.0)), Exponential::new(1e-14, (2.0, 5.0)));
+        for u in [0.1, 0.5, 0.9] {
+            let t = 2.0 + 3.0 * u;
+            for value in [none.cdf(t), little.cdf(t)] {
+                assert!((value - u).abs() < 1e-13, "{value}");
+            }
+            assert!((little.invert(u) - none.invert(u)).abs() < 1e-13);
+            assert!((little.pdf(t) - 1.0 / 3.0).abs() < 1e-13 && none.pdf(t) == 1.0 / 3.0);
+        }
+    }
+
+    #[test]
+    fn by_hand() {
+        let half_life = std::f64::consts::LN_2;
+        let density = Exponential::new(1.0, (1.0, 1e18));
+        assert!((density.invert(0.75) - (1.0 + 2.0 * half_life)).abs() < 1e-15);
+        assert!((density.cdf(1.0 + half_life) - 0.5).abs() < 1e-15);
+        assert!((density.pdf(1.0 + half_life) - 0.5).abs() < 1e-15);
+    }
+}

@@ -169,3 +169,175 @@ impl Scene {
         (1.0 - g) * (1.0 + g) / (4.0 * PI * s * s.sqrt())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::arbitrary::{config, scene};
+    use super::super::paper;
+    use super::*;
+    use glam::{DVec3, Vec3};
+    use proptest::{prop_assert, prop_assume, proptest};
+
+    /// From the origin along x, the emitter at (`t_h`, `h`, 0).
+    fn straight(interval: (f32, f32), (t_h, h): (f32, f32), normal: Option<Vec3>, medium: (f32, f32, f32)) -> Scene {
+        let ray = Ray::new(Vec3::ZERO, Vec3::X, interval.0, interval.1).unwrap();
+        let y = Vec3::new(t_h, h, 0.0);
+        let emitter = normal.map_or(Emitter::point(y), |n| Emitter::point_normal(y, n)).unwrap();
+        Scene::new(&ray, &emitter, &Medium::new(medium.0, medium.1, medium.2).unwrap())
+    }
+
+    fn assert_close(value: f64, expected: f64, relative: f64) {
+        assert!(
+            (value - expected).abs() <= relative * expected.abs(),
+            "{value:e} is not {expected:e} within {relative}"
+        );
+    }
+
+    /// The integral over distance, with a look at every decade around the emitter and behind both ends.
+    fn radiance_over_distance(scene: &Scene) -> f64 {
+        let Some((t_a, t_b)) = scene.lit() else { return 0.0 };
+        let decades = (-18..=18).map(|k| 10f64.powi(k));
+        let mut ends: Vec<f64> = decades
+            .flat_map(|x| {
+                [
+                    t_a + x / scene.mu_t,
+                    t_a + x * scene.h,
+                    t_b - x * scene.h,
+                    scene.t_h - x * scene.h,
+                    scene.t_h + x * scene.h,
+                ]
+            })
+            .filter(|t| (t_a..t_b).contains(t))
+            .chain([t_a, t_b])
+            .collect();
+        ends.sort_by(f64::total_cmp);
+        integrate_pieces(|t| scene.integrand(t), &ends, 1e-12)
+    }
+
+    #[test]
+    fn the_geometry_of_a_ray_by_hand() {
+        let scene = straight((1.0, 11.0), (5.0, 3.0), Some(Vec3::new(0.6, -0.8, 0.0)), (0.25, 0.5, 0.0));
+        assert_close(scene.t_h(), 5.0, 0.0);
+        assert_close(scene.h(), 3.0, 0.0);
+        assert_close(scene.alpha(), 0.8, 1e-7);
+        assert_close(scene.beta(), 0.6, 1e-7);
+        assert_close(scene.mu_t(), 0.75, 0.0);
+        assert_close(scene.r(1.0), 5.0, 0.0);
+        assert_close(scene.cosine(9.0), 0.96, 1e-7);
+        assert_close(scene.transmittance(9.0), (-0.75f64 * 13.0).exp(), 1e-15);
+        assert_close(scene.theta(8.0), PI / 4.0, 1e-15);
+        assert_close(scene.angle(2.0, 8.0), PI / 2.0, 1e-15);
+        assert_eq!(scene.lit().unwrap().1, 11.0);
+        assert_close(scene.lit().unwrap().0, 1.0, 1e-6); // where the ray meets the emitter's plane
+    }
+
+    #[test]
+    fn a_ray_behind_the_emitter_is_dark() {
+        let scene = straight((1.0, 11.0), (5.0, 3.0), Some(Vec3::Y), (0.25, 0.5, 0.0));
+        assert_eq!((scene.lit(), scene.radiance()), (None, 0.0));
+    }
+
+    #[test]
+    fn a_short_normal_dims_and_a_long_direction_does_not() {
+        let ray = |length: f32| Ray::new(Vec3::ZERO, Vec3::X * length, 0.0, 9.0).unwrap();
+        let emitter = |length: f32| Emitter::point_normal(Vec3::new(5.0, 3.0, 0.0), Vec3::NEG_Y * length).unwrap();
+        let medium = Medium::new(0.1, 0.2, 0.5).unwrap();
+        let radiance = |d: f32, n: f32| Scene::new(&ray(d), &emitter(n), &medium).radiance();
+        let scale = 1.0 - 1.0 / 2048.0;
+        assert_close(radiance(scale, 1.0), radiance(1.0, 1.0), 1e-13);
+        assert_close(radiance(1.0, scale), f64::from(scale) * radiance(1.0, 1.0), 1e-13);
+    }
+
+    #[test]
+    fn a_small_h_has_all_its_digits() {
+        // 1 m off a line that passes 1 km away at an angle: the direction is no unit vector in f32, yet h is exact.
+        let d = Vec3::new(0.8, 0.6, 0.0);
+        let y = Vec3::new(1000.0, 750.0, 1.0 / 1024.0);
+        let scene = Scene::new(
+            &Ray::new(Vec3::ZERO, d, 0.0, 2000.0).unwrap(),
+            &Emitter::point(y).unwrap(),
+            &Medium::new(0.0, 1.0, 0.0).unwrap(),
+        );
+        let (d, y) = (d.as_dvec3(), y.as_dvec3());
+        let in_plane = (y.x * d.y - y.y * d.x) / d.length();
+        assert_close(scene.h(), in_plane.hypot(y.z), 1e-15);
+        assert_close(scene.t_h(), y.dot(d) / d.length(), 1e-15);
+        assert!((DVec3::new(y.x, y.y, 0.0).length() - scene.t_h()).abs() < 1e-6);
+    }
+
+    #[test]
+    fn without_absorption_and_isotropic_the_radiance_is_elementary() {
+        let (mu_s, up) = (1e-30, Some(Vec3::NEG_Y));
+        for interval in [(0.0, 9.0), (0.0, f32::INFINITY), (4.0, 4.000001), (7.0, 1e6)] {
+            for h in [1e-6f32, 1e-3, 1.0, 1e3] {
+                let scene = straight(interval, (5.0, h), None, (0.0, mu_s, 0.0));
+                let (t_a, t_b) = scene.interval();
+                let expected = f64::from(mu_s) / (4.0 * PI * f64::from(h)) * scene.angle(t_a, t_b);
+                // mu_t t is 1e-12 at the far end
+                assert_close(scene.radiance(), expected, 4e-12);
+                let scene = straight(interval, (5.0, h), up, (0.0, mu_s, 0.0));
+                let middle = 0.5 * (scene.theta(t_a) + scene.theta(t_b));
+                let expected = f64::from(mu_s) / (4.0 * PI * f64::from(h))
+                    * 2.0
+                    * (0.5 * scene.angle(t_a, t_b)).sin()
+                    * middle.cos();
+                let rounding_of_the_middle = 4e-16 / middle.cos();
+                assert_close(scene.radiance(), expected, 4e-12 + rounding_of_the_middle);
+            }
+        }
+    }
+
+    #[test]
+    fn the_extremes_are_finite() {
+        let h = [0.0, 1e-30, 1e-6, 1.0, 1e6, 1e18];
+        for (g, h) in [-1.0, -0.999_999, 0.0, 0.999_999, 1.0].into_iter().flat_map(|g| h.map(|h| (g, h))) {
+            for normal in [None, Some(Vec3::NEG_Y), Some(Vec3::X)] {
+                let scene = straight((0.0, f32::INFINITY), (5.0, h), normal, (1.0, 1.0, g));
+                assert!(scene.radiance().is_finite() && scene.radiance() >= 0.0, "g = {g}, h = {h}, {normal:?}");
+                let (t_a, t_b) = scene.lit().unwrap_or_default();
+                for t in [t_a, 1.0, 5.0, t_b] {
+                    assert!(scene.phase(t).is_finite() && scene.integrand(t).is_finite(), "g = {g}, h = {h}, t = {t}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn layers_of_any_width_are_seen() {
+        for (mu_t, h, g) in
+            [(100.0, 1.0, 0.99), (1e6, 1.0, -0.99), (1e-3, 1e-4, 0.99), (1e3, 1e-3, 0.0), (1e4, 1e4, 0.9)]
+        {
+            for t_h in [-5.0, 0.0, 0.01, 5.0] {
+                let scene = straight((0.0, f32::INFINITY), (t_h, h), None, (0.0, mu_t, g));
+                assert_close(scene.radiance(), radiance_over_distance(&scene), 1e-10);
+            }
+        }
+    }
+
+    proptest! {
+        #![proptest_config(config(256))]
+
+        #[test]
+        fn the_integral_over_angle_is_that_over_distance(scene in scene()) {
+            let expected = radiance_over_distance(&scene);
+            prop_assume!(expected > 1e-290); // of subnormal numbers no digits are promised
+            let error = scene.radiance() / expected - 1.0;
+            prop_assert!(error.abs() <= 1e-11, "{error:e}");
+        }
+
+        #[test]
+        fn the_symbols_agree_with_the_paper(scene in scene()) {
+            for t in [scene.t_min, scene.t_h, scene.t_min + 3.0 * scene.h] {
+                let theta = scene.theta(t);
+                let path = (t - scene.t_min).abs() + scene.r(t);
+                let transmittance = paper::transmittance(scene.mu_t, scene.h, scene.t_h - scene.t_min, theta);
+                let rounding = 1e-12 * (1.0 + scene.mu_t * path) / theta.cos();
+                prop_assert!((scene.transmittance(t) - transmittance).abs() <= rounding * transmittance);
+                let rho = paper::phase(scene.g, theta);
+                prop_assert!((scene.phase(t) - rho).abs() <= 1e-11 * rho);
+                let n = (scene.alpha() * theta.cos() + scene.beta() * theta.sin()).max(0.0);
+                prop_assert!(scene.normal.is_none() || (scene.cosine(t) - n).abs() <= 1e-13);
+            }
+        }
+    }
+}

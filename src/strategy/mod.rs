@@ -1,5 +1,14 @@
 //! The densities that can be sampled, one file each.
 
+pub(crate) mod equi_angular;
+pub(crate) mod point_normal;
+mod taylor;
+pub(crate) mod taylor_phase;
+pub(crate) mod taylor_transmittance;
+pub(crate) mod transmittance;
+
+pub(crate) use taylor::Taylor;
+
 use std::fmt;
 use std::str::FromStr;
 

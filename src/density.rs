@@ -1,0 +1,60 @@
+//! What every sampled density is to the kernels: a set-up, an inverse and a pdf.
+
+use crate::geometry::{Geometry, Point};
+use crate::integrand::MediumLanes;
+use crate::simd::{Isa, Lanes};
+
+/// A density over the distances of a lane group of rays, set up for one geometry and medium.
+pub(crate) trait Density<I: Isa>: Sized {
+    /// What does not depend on the variate.
+    fn new(isa: I, geometry: &Geometry<I>, medium: &MediumLanes<I>) -> Self;
+
+    /// The point where the CDF is `u`, increasing in `u`.
+    fn invert(&self, isa: I, geometry: &Geometry<I>, u: I::V) -> Drawn<I>;
+
+    /// The density at a point of the support.
+    fn pdf(&self, isa: I, geometry: &Geometry<I>, point: &Point<I>) -> Pdf<I>;
+
+    /// The distances `[low, high]` that are sampled \[m\].
+    #[inline(always)]
+    fn support(geometry: &Geometry<I>) -> [I::V; 2] {
+        [geometry.a.t, geometry.b.t]
+    }
+}
+
+/// A point that was drawn.
+pub(crate) struct Drawn<I: Isa> {
+    pub(crate) point: Point<I>,
+    pub(crate) pdf: Pdf<I>,
+    /// Which lanes fell back to bisection.
+    pub(crate) bisected: I::Mask,
+}
+
+/// A density at a point.
+pub(crate) struct Pdf<I: Isa> {
+    /// Over distance \[1/m\].
+    pub(crate) over_t: I::V,
+    /// The same times `r^2` \[m\]: where it is known as such, `1/r^2` cancels against the integrand's.
+    pub(crate) times_r2: I::V,
+}
+
+impl<I: Isa> Pdf<I> {
+    /// From a density over the angle at the emitter, `dtheta = h dt / r^2`.
+    #[inline(always)]
+    pub(crate) fn over_angle(p_theta: I::V, h: I::V, r: I::V) -> Self {
+        let times_r2 = p_theta * h;
+        Self { over_t: times_r2 / (r * r), times_r2 }
+    }
+
+    /// From a density over distance.
+    #[inline(always)]
+    pub(crate) fn over_distance(over_t: I::V, r: I::V) -> Self {
+        Self { over_t, times_r2: over_t * (r * r) }
+    }
+}
+
+/// No lane.
+#[inline(always)]
+pub(crate) fn none<I: Isa>(isa: I) -> I::Mask {
+    isa.splat(1.0).lt(isa.splat(0.0))
+}

@@ -1,0 +1,292 @@
+//! A ray and an emitter as the kernels see them: distances from the foot of the perpendicular, clipped to the lit side.
+//!
+//! All of it rests on three numbers computed in double precision and rounded once: `t_h` (where the ray passes the
+//! emitter), `h` (at what distance) and `t' = t - t_h`. With them nothing below cancels, however far the emitter, short
+//! the interval or small `h`: angles are taken between two points of the ray, distances from the nearer end.
+
+use crate::scene::{FARTHEST, UNIT_TOLERANCE};
+use crate::simd::math::angle_of;
+use crate::simd::{Double, Isa, Lanes};
+
+/// The rays of a lane group.
+pub(crate) struct RayLanes<I: Isa> {
+    pub(crate) origin: [I::V; 3],
+    pub(crate) direction: [I::V; 3],
+    pub(crate) t_min: I::V,
+    pub(crate) t_max: I::V,
+}
+
+/// Their emitters; the normal (0, 0, 0) stands for none.
+#[derive(Clone, Copy)]
+pub(crate) struct EmitterLanes<I: Isa> {
+    pub(crate) position: [I::V; 3],
+    pub(crate) normal: [I::V; 3],
+}
+
+/// One end of the lit interval.
+#[derive(Clone, Copy)]
+pub(crate) struct End<I: Isa> {
+    /// Distance along the ray \[m\].
+    pub(crate) t: I::V,
+    /// `t - t_h` \[m\].
+    pub(crate) t_prime: I::V,
+    /// Distance to the emitter \[m\].
+    pub(crate) r: I::V,
+    /// The cosine `N` there: exactly 0 where the interval was clipped, 1 without a normal.
+    pub(crate) n: I::V,
+    /// Whether `N = 0` set this end, rather than the ray.
+    clipped: I::Mask,
+}
+
+/// A point of the ray.
+#[derive(Clone, Copy)]
+pub(crate) struct Point<I: Isa> {
+    /// Distance along the ray \[m\], rounded.
+    pub(crate) t: I::V,
+    /// `t - t_h` \[m\], exact to a few ulp also where `t` cannot resolve it.
+    pub(crate) t_prime: I::V,
+    /// Distance to the emitter \[m\].
+    pub(crate) r: I::V,
+    /// `t - t_a` \[m\], not negative.
+    pub(crate) from_a: I::V,
+    /// `t_b - t` \[m\], not negative.
+    pub(crate) to_b: I::V,
+}
+
+/// The geometry of a lane group.
+pub(crate) struct Geometry<I: Isa> {
+    /// Distance from the emitter to the ray's line \[m\].
+    pub(crate) h: I::V,
+    /// `alpha = n.u`: with `beta`, the cosine is `N = alpha cos theta + beta sin theta`, (21).
+    pub(crate) alpha: I::V,
+    /// `beta = n.d`.
+    pub(crate) beta: I::V,
+    /// Start of the lit interval.
+    pub(crate) a: End<I>,
+    /// Its end.
+    pub(crate) b: End<I>,
+    /// `t_b - t_a` \[m\].
+    pub(crate) length: I::V,
+    /// Ends of the ray itself \[m\].
+    pub(crate) t_min: I::V,
+    pub(crate) t_max: I::V,
+    t_h: I::Double,
+    t_prime_min: I::Double,
+    /// Which lanes have an emitter with a normal.
+    pub(crate) has_normal: I::Mask,
+    /// Which lanes have a part that is lit.
+    pub(crate) lit: I::Mask,
+    /// Which lanes hold a ray and an emitter at all.
+    pub(crate) valid: I::Mask,
+}
+
+impl<I: Isa> Geometry<I> {
+    #[inline(always)]
+    pub(crate) fn new(isa: I, ray: &RayLanes<I>, emitter: &EmitterLanes<I>) -> Self {
+        let c = |x| isa.splat(x);
+        let d = ray.direction.map(I::V::widen);
+        let n = emitter.normal.map(I::V::widen);
+        let [e0, e1, e2] = [0, 1, 2].map(|k| emitter.position[k].widen() - ray.origin[k].widen());
+        let e = [e0, e1, e2];
+
+        // 1/|d| by its series about |d| = 1: distances are in metres also where d is not quite a unit vector.
+        let q = dot(d, d) - isa.splat_double(1.0);
+        let unit = q
+            .mul_add(isa.splat_double(-0.3125), isa.splat_double(0.375))
+            .mul_add(q, isa.splat_double(-0.5))
+            .mul_add(q, isa.splat_double(1.0));
+        let t_h = dot(e, d) * unit;
+        let beta = dot(n, d) * unit;
+        let along = t_h * unit;
+        let foot = [0, 1, 2].map(|k| along.mul_add(d[k], -e[k]));
+        let alpha_h = dot(n, foot);
+
+        let t_max = ray.t_max.min(c(FARTHEST));
+        let t_prime_min = ray.t_min.widen() - t_h;
+        let t_prime_max = t_max.widen() - t_h;
+        let [ta, tb] = [t_prime_min, t_prime_max].map(I::V::narrow);
+        let h_squared = I::V::narrow(dot(foot, foot));
+        let h = h_squared.sqrt().max(ta.abs().max(c(1e-6)) * c(1e-12));
+        let length = t_max - ray.t_min;
+
+        // The sign of m = n.(x - y) at the ends decides what is lit.
+        let normal_size = emitter.normal[0].abs() + emitter.normal[1].abs() + emitter.normal[2].abs();
+        let has_normal = !normal_size.eq(c(0.0));
+        let m_a = I::V::narrow(beta.mul_add(t_prime_min, alpha_h));
+        let m_b = I::V::narrow(beta.mul_add(t_prime_max, alpha_h));
+        let dark_a = has_normal & m_a.le(c(0.0));
+        let dark_b = has_normal & m_b.le(c(0.0));
+        let both = dark_a & dark_b;
+        let (clip_a, clip_b) = (dark_a & !both, dark_b & !both);
+
+        let beta = I::V::narrow(beta);
+        let inv_beta = c(1.0) / beta;
+        let tn = (-I::V::narrow(alpha_h) * inv_beta).max(ta).min(tb);
+        let lit_length = (I::V::select(clip_a, m_b, m_a) * inv_beta.abs()).min(length);
+        let length = I::V::select(clip_a | clip_b, lit_length, length);
+        let ta = I::V::select(clip_a, tn, ta);
+        let tb = I::V::select(clip_b, tn, tb);
+        let r = |t_prime: I::V| t_prime.mul_add(t_prime, h * h).sqrt();
+        let (ra, rb) = (r(ta), r(tb));
+
+        // The distance of a clipped end: from the other end, or from t_h where that is nearer.
+        let by_foot = I::V::narrow(t_h + tn.widen());
+        let near_foot = tn.abs().lt(length);
+        let t_a = I::V::select(clip_a, I::V::select(near_foot, by_foot, t_max - length), ray.t_min);
+        let t_b = I::V::select(clip_b, I::V::select(near_foot, by_foot, ray.t_min + length), t_max);
+        let cosine = |m: I::V, r: I::V, clipped| {
+            let n = I::V::select(has_normal, m / r, c(1.0));
+            I::V::select(clipped, c(0.0), n)
+        };
+
+        let a = End { t: t_a.max(ray.t_min), t_prime: ta, r: ra, n: cosine(m_a, ra, clip_a), clipped: clip_a };
+        let b = End { t: t_b.min(t_max), t_prime: tb, r: rb, n: cosine(m_b, rb, clip_b), clipped: clip_b };
+
+        // Below these f32 has no more to say about an interval: it subtends 1e-30 rad, is 1e-36 of r^2, or takes in
+        // 1e-34 of the light.
+        let rr = ra * rb;
+        let subtends = h * length;
+        let obtuse = h.mul_add(h, ta * tb).lt(c(0.0));
+        let wide = c(1e-18).lt(length)
+            & (rr * c(1e-30)).lt(subtends)
+            & (rr * c(1e-36)).lt(length)
+            & (obtuse | (rr * c(1e-34)).lt(subtends * (a.n + b.n)));
+        let nn = I::V::narrow(dot(n, n) - isa.splat_double(1.0));
+        let tolerance = c(2.001 * UNIT_TOLERANCE);
+        let valid = I::V::narrow(q).abs().le(tolerance)
+            & (nn.abs().le(tolerance) | normal_size.eq(c(0.0)))
+            & c(0.0).le(ray.t_min)
+            & ray.t_min.le(c(FARTHEST))
+            & ray.t_min.le(ray.t_max)
+            & h.le(c(4.0 * FARTHEST))
+            & I::V::narrow(t_h).abs().le(c(4.0 * FARTHEST));
+
+        Self {
+            h,
+            alpha: (I::V::narrow(alpha_h) / h).max(c(-1.0)).min(c(1.0)),
+            beta,
+            a,
+            b,
+            length,
+            t_min: ray.t_min,
+            t_max,
+            t_h,
+            t_prime_min,
+            has_normal,
+            lit: wide & !both,
+            valid,
+        }
+    }
+
+    /// The angle `Theta` that the lit interval subtends at the emitter, in `(0, pi]` \[rad\].
+    #[inline(always)]
+    pub(crate) fn subtended(&self, isa: I) -> I::V {
+        angle_of(isa, self.h * self.length, self.dot_of_ends())
+    }
+
+    /// `r_a r_b cos Theta` \[m^2\].
+    #[inline(always)]
+    pub(crate) fn dot_of_ends(&self) -> I::V {
+        self.h.mul_add(self.h, self.a.t_prime * self.b.t_prime)
+    }
+
+    /// `S = alpha sin theta - beta cos theta` at an end: `dS/dtheta = N`.
+    #[inline(always)]
+    pub(crate) fn antiderivative(&self, end: &End<I>) -> I::V {
+        self.alpha.mul_add(end.t_prime, -(self.beta * self.h)) / end.r
+    }
+
+    /// The point at the angle `delta` from an end (`a` where `from_a`), given `tau = tan(delta/2) <= 1`.
+    ///
+    /// With `t'_e` counted towards the interval, its distance from the end is
+    /// `2 tau r_e^2 / (h (1 - tau^2) - 2 tau t'_e)` and its `t'` is `h (t'_e (1 - tau^2) + 2 tau h)` over the same.
+    #[inline(always)]
+    pub(crate) fn point_at_angle(&self, isa: I, from_a: I::Mask, tau: I::V) -> Point<I> {
+        let c = |x| isa.splat(x);
+        let toward = |a: I::V, b: I::V| I::V::select(from_a, a, -b);
+        let te = toward(self.a.t_prime, self.b.t_prime);
+        let re = I::V::select(from_a, self.a.r, self.b.r);
+        let two_tau = tau + tau;
+        let one_minus = (-tau).mul_add(tau, c(1.0));
+        let scale = c(1.0) / self.h.mul_add(one_minus, -(two_tau * te));
+        let offset = ((two_tau * re) * (re * scale)).min(self.length);
+        let t_prime = (self.h * scale) * te.mul_add(one_minus, two_tau * self.h);
+        let t_prime = toward(t_prime, t_prime).max(self.a.t_prime).min(self.b.t_prime);
+
+        let rest = self.rest(offset, t_prime, I::V::select(from_a, self.b.t_prime, self.a.t_prime));
+        let (from_start, to_end) = (I::V::select(from_a, offset, rest), I::V::select(from_a, rest, offset));
+        let t = self.distance(isa, t_prime, from_start, to_end);
+        Point { t, t_prime, r: self.r(t_prime), from_a: from_start, to_b: to_end }
+    }
+
+    /// The point of the ray at the given distance, which may lie outside the lit interval.
+    #[inline(always)]
+    pub(crate) fn point_at_distance(&self, t: I::V) -> Point<I> {
+        self.point(t, I::V::narrow(t.widen() - self.t_h), t - self.t_min)
+    }
+
+    /// The point at the distance `s` from `t_min`.
+    #[inline(always)]
+    pub(crate) fn point_from_t_min(&self, s: I::V) -> Point<I> {
+        self.point((self.t_min + s).min(self.t_max), I::V::narrow(self.t_prime_min + s.widen()), s)
+    }
+
+    #[inline(always)]
+    fn point(&self, t: I::V, t_prime: I::V, from_t_min: I::V) -> Point<I> {
+        let zero = t - t;
+        let to_t_max = self.t_max - t;
+        let from_a = I::V::select(self.a.clipped, self.rest(to_t_max, t_prime, self.a.t_prime), from_t_min);
+        let to_b = I::V::select(self.b.clipped, self.rest(from_t_min, t_prime, self.b.t_prime), to_t_max);
+        // Outside the lit interval the length of the rest is measured to the wrong side: there N is 0.
+        let from_a = I::V::select(self.a.clipped & t_prime.le(self.a.t_prime), zero, from_a);
+        let to_b = I::V::select(self.b.clipped & self.b.t_prime.le(t_prime), zero, to_b);
+        Point { t, t_prime, r: self.r(t_prime), from_a: from_a.max(zero), to_b: to_b.max(zero) }
+    }
+
+    /// What is left of the interval beyond `offset` from one end: by the length, or by `t'` where that is smaller.
+    #[inline(always)]
+    fn rest(&self, offset: I::V, t_prime: I::V, far_t_prime: I::V) -> I::V {
+        let by_length = (self.length - offset).max(offset - offset);
+        let size = t_prime.abs().max(far_t_prime.abs());
+        I::V::select(self.length.lt(size), by_length, (t_prime - far_t_prime).abs())
+    }
+
+    /// `t` from the nearest of the places that are known exactly: `t_h` and the ends that were not clipped.
+    #[inline(always)]
+    fn distance(&self, isa: I, t_prime: I::V, from_a: I::V, to_b: I::V) -> I::V {
+        let infinite = isa.splat(f32::INFINITY);
+        let from_a = I::V::select(self.a.clipped, infinite, from_a);
+        let to_b = I::V::select(self.b.clipped, infinite, to_b);
+        let by_end = I::V::select(to_b.lt(from_a), self.b.t - to_b, self.a.t + from_a);
+        let by_foot = I::V::narrow(self.t_h + t_prime.widen());
+        let t = I::V::select(t_prime.abs().lt(from_a.min(to_b)), by_foot, by_end);
+        t.max(self.a.t).min(self.b.t)
+    }
+
+    #[inline(always)]
+    fn r(&self, t_prime: I::V) -> I::V {
+        t_prime.mul_add(t_prime, self.h * self.h).sqrt()
+    }
+
+    /// The cosine `N` at a point, from the end towards which it falls.
+    #[inline(always)]
+    pub(crate) fn cosine(&self, isa: I, point: &Point<I>) -> I::V {
+        let c = |x| isa.splat(x);
+        let rising = c(0.0).le(self.beta);
+        let m_end = I::V::select(rising, self.a.n * self.a.r, self.b.n * self.b.r);
+        let way = I::V::select(rising, point.from_a, point.to_b);
+        let m = self.beta.abs().mul_add(way, m_end);
+        I::V::select(self.has_normal, m / point.r, c(1.0))
+    }
+
+    /// The length of the path from `t_min` over the point to the emitter \[m\].
+    #[inline(always)]
+    pub(crate) fn path(&self, point: &Point<I>) -> I::Double {
+        (point.t_prime.widen() - self.t_prime_min) + point.r.widen()
+    }
+}
+
+#[inline(always)]
+fn dot<D: Double>(a: [D; 3], b: [D; 3]) -> D {
+    a[2].mul_add(b[2], a[1].mul_add(b[1], a[0] * b[0]))
+}

@@ -1,0 +1,48 @@
+//! What is integrated: `f = mu_s T rho N / r^2`, without the `1/r^2` that every density shares.
+
+use crate::geometry::{Geometry, Point};
+use crate::simd::math::exp;
+use crate::simd::{Isa, Lanes};
+
+/// The media of a lane group.
+#[derive(Clone, Copy)]
+pub(crate) struct MediumLanes<I: Isa> {
+    pub(crate) mu_s: I::V,
+    pub(crate) mu_t: I::V,
+    pub(crate) g: I::V,
+    pub(crate) valid: I::Mask,
+}
+
+impl<I: Isa> MediumLanes<I> {
+    #[inline(always)]
+    pub(crate) fn new(isa: I, mu_a: I::V, mu_s: I::V, g: I::V) -> Self {
+        let (zero, mu_t) = (isa.splat(0.0), mu_a + mu_s);
+        let valid = zero.le(mu_a) & zero.le(mu_s) & mu_t.le(isa.splat(f32::MAX)) & g.abs().le(isa.splat(1.0));
+        Self { mu_s, mu_t, g, valid }
+    }
+}
+
+/// `mu_s T rho N` \[1/m\]: the integrand times `r^2`.
+#[inline(always)]
+pub(crate) fn integrand_r2<I: Isa>(isa: I, g: &Geometry<I>, medium: &MediumLanes<I>, point: &Point<I>) -> I::V {
+    let depth = medium.mu_t.widen() * g.path(point);
+    let transmittance = exp(isa, -depth);
+    (medium.mu_s * transmittance) * (phase(isa, g, medium.g, point) * g.cosine(isa, point))
+}
+
+/// Henyey-Greenstein, (12): `(1 - g^2) / (4 pi (1 + g^2 + 2 g sin theta)^(3/2))` \[1/sr\].
+///
+/// The denominator is `(1 - |g|)^2 + 2 |g| (1 +- sin theta)`, and `1 +- sin theta = (r +- t')/r` without cancellation.
+#[inline(always)]
+fn phase<I: Isa>(isa: I, geometry: &Geometry<I>, g: I::V, point: &Point<I>) -> I::V {
+    let c = |x| isa.splat(x);
+    let (h, r) = (geometry.h, point.r);
+    let size = g.abs();
+    let forward = c(0.0).le(g * point.t_prime);
+    let long = r + point.t_prime.abs();
+    let one_plus_sin = I::V::select(forward, long * long, h * h) / (r * long);
+    let away = c(1.0) - size;
+    // The floor matters for |g| = 1 alone, where rho is 0 but at its peak.
+    let d = away.mul_add(away, (size + size) * one_plus_sin).max(c(1e-24));
+    (away * (c(1.0) + size)) * c(0.25 * core::f32::consts::FRAC_1_PI) / (d * d.sqrt())
+}

@@ -1,0 +1,95 @@
+//! Lane groups: the vector operations that the kernels need, for each instruction set.
+//!
+//! A kernel is written once, generic over [`Isa`]; an instruction set is a thin binding of [`Lanes`] and [`Double`].
+
+pub(crate) mod math;
+mod portable;
+
+pub(crate) use portable::Portable;
+
+use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
+
+/// A group of `f32` lanes, one ray each.
+///
+/// Every method is `#[inline(always)]`, so that it takes on the target features of the function it ends up in. No
+/// method moves a value from one lane to another: what a lane computes depends on that lane alone.
+pub(crate) trait Lanes:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
+{
+    /// One truth value per lane.
+    type Mask: Copy + BitAnd<Output = Self::Mask> + BitOr<Output = Self::Mask> + Not<Output = Self::Mask>;
+    /// The same number of lanes in double precision.
+    type Double: Double;
+    /// How many lanes.
+    const N: usize;
+
+    /// `self * m + a`; one rounding where the set has FMA, else two.
+    fn mul_add(self, m: Self, a: Self) -> Self;
+    fn sqrt(self) -> Self;
+    fn abs(self) -> Self;
+    /// The smaller one; either where a lane is NaN.
+    fn min(self, o: Self) -> Self;
+    /// The larger one; either where a lane is NaN.
+    fn max(self, o: Self) -> Self;
+    /// False where a lane is NaN, as are `le` and `eq`.
+    fn lt(self, o: Self) -> Self::Mask;
+    fn le(self, o: Self) -> Self::Mask;
+    fn eq(self, o: Self) -> Self::Mask;
+    fn select(m: Self::Mask, yes: Self, no: Self) -> Self;
+    /// Bit `i` is the truth of lane `i`.
+    fn bits(m: Self::Mask) -> u32;
+    /// `2^self` for integral values in `[-126, 127]`.
+    fn pow2(self) -> Self;
+    /// `(m, e)` with `self = m 2^e` and `m` in `[sqrt(1/2), sqrt(2))`, for positive normal values.
+    fn split(self) -> (Self, Self);
+    fn widen(self) -> Self::Double;
+    /// Rounded to nearest.
+    fn narrow(d: Self::Double) -> Self;
+    /// Writes the first `out.len()` lanes, at most all.
+    fn store_prefix(self, out: &mut [f32]);
+}
+
+/// The double-precision companion of a lane group: geometry is computed in it and rounded once.
+pub(crate) trait Double:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
+{
+    /// `self * m + a`; one rounding where the set has FMA, else two.
+    fn mul_add(self, m: Self, a: Self) -> Self;
+    fn max(self, o: Self) -> Self;
+}
+
+/// A zero-sized proof that this CPU has one instruction set, and what makes values of it.
+pub(crate) trait Isa: Copy {
+    type V: Lanes<Mask = Self::Mask, Double = Self::Double>;
+    type Mask: Copy + BitAnd<Output = Self::Mask> + BitOr<Output = Self::Mask> + Not<Output = Self::Mask>;
+    type Double: Double;
+
+    fn splat(self, x: f32) -> Self::V;
+    fn splat_double(self, x: f64) -> Self::Double;
+    /// The first lanes from `s`, which is not empty; where it is too short, its first value fills up.
+    fn load_padded(self, s: &[f32]) -> Self::V;
+}
+
+/// Code that is written once and run by one of several instruction sets.
+pub(crate) trait Kernel {
+    type Output;
+    /// Must be `#[inline(always)]`, like all that it calls.
+    fn run<I: Isa>(self, isa: I) -> Self::Output;
+}
+
+/// An instruction set that this CPU has.
+#[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
+pub(crate) enum Backend {
+    /// `wide` at the target features of the build.
+    Portable,
+}
+
+impl Backend {
+    /// Runs `kernel` with these instructions on.
+    pub(crate) fn run<K: Kernel>(self, kernel: K) -> K::Output {
+        match self {
+            Self::Portable => kernel.run(Portable),
+        }
+    }
+}

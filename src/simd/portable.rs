@@ -1,0 +1,145 @@
+//! `wide::f32x8`: the instruction set is whatever the build enables. The reading copy of the trait.
+
+use super::{Double, Isa, Lanes};
+use core::ops::{Add, Mul, Neg, Sub};
+use wide::bytemuck::cast;
+use wide::{f32x8, f64x4, i32x8};
+
+/// Needs no CPU check.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Portable;
+
+impl Isa for Portable {
+    type V = f32x8;
+    type Mask = f32x8;
+    type Double = F64x8;
+
+    #[inline(always)]
+    fn splat(self, x: f32) -> f32x8 {
+        f32x8::splat(x)
+    }
+    #[inline(always)]
+    fn splat_double(self, x: f64) -> F64x8 {
+        F64x8(f64x4::splat(x), f64x4::splat(x))
+    }
+    #[inline(always)]
+    fn load_padded(self, s: &[f32]) -> f32x8 {
+        if let Some(head) = s.first_chunk() {
+            return f32x8::new(*head);
+        }
+        let mut pad = [s[0]; 8];
+        pad[..s.len()].copy_from_slice(s);
+        f32x8::new(pad)
+    }
+}
+
+impl Lanes for f32x8 {
+    type Mask = f32x8;
+    type Double = F64x8;
+    const N: usize = 8;
+
+    #[inline(always)]
+    fn mul_add(self, m: Self, a: Self) -> Self {
+        f32x8::mul_add(self, m, a)
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        f32x8::sqrt(self)
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        f32x8::abs(self)
+    }
+    #[inline(always)]
+    fn min(self, o: Self) -> Self {
+        self.fast_min(o)
+    }
+    #[inline(always)]
+    fn max(self, o: Self) -> Self {
+        self.fast_max(o)
+    }
+    #[inline(always)]
+    fn lt(self, o: Self) -> f32x8 {
+        self.simd_lt(o)
+    }
+    #[inline(always)]
+    fn le(self, o: Self) -> f32x8 {
+        self.simd_le(o)
+    }
+    #[inline(always)]
+    fn eq(self, o: Self) -> f32x8 {
+        self.simd_eq(o)
+    }
+    #[inline(always)]
+    fn select(m: f32x8, yes: Self, no: Self) -> Self {
+        m.bitselect(yes, no)
+    }
+    #[inline(always)]
+    fn bits(m: f32x8) -> u32 {
+        m.to_bitmask()
+    }
+    #[inline(always)]
+    fn pow2(self) -> Self {
+        // Adding 1.5 * 2^23 leaves the integer in the low bits of the significand.
+        let n: i32x8 = cast(self + f32x8::splat(12_582_912.0));
+        cast((n + i32x8::splat(127)) << 23)
+    }
+    #[inline(always)]
+    fn split(self) -> (Self, Self) {
+        let bits: i32x8 = cast(self);
+        let exponent = (bits - i32x8::splat(0x3f35_04f3)) >> 23;
+        (cast(bits - (exponent << 23)), f32x8::from_i32x8(exponent))
+    }
+    #[inline(always)]
+    fn widen(self) -> F64x8 {
+        let [a, b, c, d, e, f, g, h] = self.to_array().map(f64::from);
+        F64x8(f64x4::new([a, b, c, d]), f64x4::new([e, f, g, h]))
+    }
+    #[inline(always)]
+    fn narrow(x: F64x8) -> Self {
+        let [a, b, c, d] = x.0.to_array();
+        let [e, f, g, h] = x.1.to_array();
+        f32x8::new([a, b, c, d, e, f, g, h].map(|x| x as f32))
+    }
+    #[inline(always)]
+    fn store_prefix(self, out: &mut [f32]) {
+        let n = out.len().min(8);
+        out[..n].copy_from_slice(&self.to_array()[..n]);
+    }
+}
+
+/// Eight `f64` lanes in two halves.
+#[derive(Clone, Copy)]
+pub(crate) struct F64x8(f64x4, f64x4);
+
+macro_rules! binary_op {
+    ($($Op:ident $op:ident)*) => {$(
+        impl $Op for F64x8 {
+            type Output = Self;
+            #[inline(always)]
+            fn $op(self, o: Self) -> Self {
+                Self($Op::$op(self.0, o.0), $Op::$op(self.1, o.1))
+            }
+        }
+    )*};
+}
+binary_op!(Add add Sub sub Mul mul);
+
+impl Neg for F64x8 {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(-self.0, -self.1)
+    }
+}
+
+impl Double for F64x8 {
+    #[inline(always)]
+    fn mul_add(self, m: Self, a: Self) -> Self {
+        Self(self.0.mul_add(m.0, a.0), self.1.mul_add(m.1, a.1))
+    }
+    #[inline(always)]
+    fn max(self, o: Self) -> Self {
+        Self(self.0.fast_max(o.0), self.1.fast_max(o.1))
+    }
+}

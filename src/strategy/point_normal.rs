@@ -1,0 +1,71 @@
+//! `p(theta)` proportional to `N = alpha cos theta + beta sin theta`, (21), or uniform for an emitter without normal.
+//!
+//! With `S = alpha sin theta - beta cos theta`, an antiderivative of N, the CDF from an end is `D = S - S_e` over the
+//! mass `S_b - S_a`, and `N^2 = N_e^2 - D (2 S_e + D)`. The angle from that end has `tan(delta/2) = D / (N + N_e)`.
+
+use crate::density::{Density, Drawn, Pdf, none};
+use crate::geometry::{Geometry, Point};
+use crate::integrand::MediumLanes;
+use crate::simd::math::tan;
+use crate::simd::{Isa, Lanes};
+
+pub(crate) struct PointNormal<I: Isa> {
+    /// `S` at the ends, counted towards the interval.
+    s_a: I::V,
+    s_b: I::V,
+    /// The integral of N over `theta`; without a normal the angle itself.
+    mass: I::V,
+}
+
+/// The integral of N between two angles, given N and S at both and `tan_half` of their difference.
+///
+/// The product is exact for narrow intervals; `wide` ones, beyond a right angle, take the difference.
+#[inline(always)]
+pub(crate) fn mass_of_cosine<I: Isa>(n: [I::V; 2], s: [I::V; 2], tan_half: I::V, wide: I::Mask) -> I::V {
+    I::V::select(wide, s[1] - s[0], (n[0] + n[1]) * tan_half)
+}
+
+/// `tan(delta/2)` of the angle from an end within which N has the integral `mass`.
+#[inline(always)]
+pub(crate) fn tan_half_at_mass<I: Isa>(isa: I, n_end: I::V, s_end: I::V, mass: I::V) -> I::V {
+    let zero = isa.splat(0.0);
+    let n = n_end.mul_add(n_end, -(mass * (s_end + s_end + mass))).max(zero).sqrt();
+    mass / (n + n_end).max(isa.splat(1e-37))
+}
+
+impl<I: Isa> Density<I> for PointNormal<I> {
+    #[inline(always)]
+    fn new(isa: I, geometry: &Geometry<I>, _: &MediumLanes<I>) -> Self {
+        let g = geometry;
+        let [s_a, s_b] = [g.antiderivative(&g.a), g.antiderivative(&g.b)];
+        let dot = g.dot_of_ends();
+        let tan_half = (g.h * g.length) / g.a.r.mul_add(g.b.r, dot);
+        let mut mass = mass_of_cosine::<I>([g.a.n, g.b.n], [s_a, s_b], tan_half, dot.lt(isa.splat(0.0)));
+        if I::V::bits(!g.has_normal) != 0 {
+            mass = I::V::select(g.has_normal, mass, g.subtended(isa));
+        }
+        Self { s_a, s_b: -s_b, mass }
+    }
+
+    #[inline(always)]
+    fn invert(&self, isa: I, geometry: &Geometry<I>, u: I::V) -> Drawn<I> {
+        let g = geometry;
+        let rest = isa.splat(1.0) - u;
+        let from_a = u.le(rest);
+        let mass = self.mass * u.min(rest);
+        let n_end = I::V::select(from_a, g.a.n, g.b.n);
+        let s_end = I::V::select(from_a, self.s_a, self.s_b);
+        let mut tan_half = tan_half_at_mass(isa, n_end, s_end, mass);
+        if I::V::bits(!g.has_normal) != 0 {
+            tan_half = I::V::select(g.has_normal, tan_half, tan(isa, isa.splat(0.5) * mass));
+        }
+        let point = g.point_at_angle(isa, from_a, tan_half);
+        let pdf = self.pdf(isa, g, &point);
+        Drawn { point, pdf, bisected: none(isa) }
+    }
+
+    #[inline(always)]
+    fn pdf(&self, isa: I, geometry: &Geometry<I>, point: &Point<I>) -> Pdf<I> {
+        Pdf::over_angle(geometry.cosine(isa, point) / self.mass, geometry.h, point.r)
+    }
+}

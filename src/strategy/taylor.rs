@@ -1,0 +1,257 @@
+//! `p(theta)` proportional to `N(theta) P(min(theta, theta_c))`: a Taylor polynomial times the cosine.
+//!
+//! `P` is the order-6 expansion about `theta = 0` of the transmittance or of the phase function. It is trusted up to
+//! `theta_c` and keeps the value it has there beyond, which makes the density positive for every input. So there are
+//! two pieces: below `theta_c` the CDF is inverted by Newton's method, above it is that of the point-normal density.
+//!
+//! On the first piece everything is a polynomial of the local variable `x` in `[-1, 1]` around its middle: `P` shifted
+//! there, `N` by its sine and cosine series. The closed form (22) of the same integral cancels catastrophically on
+//! short intervals; the oracle has it.
+//!
+//! The angle may be mirrored (backward scattering, `g < 0`): then `theta` runs from `b` to `a`.
+
+use super::point_normal::{mass_of_cosine, tan_half_at_mass};
+use crate::density::{Density, Drawn, Pdf};
+use crate::geometry::{Geometry, Point};
+use crate::integrand::MediumLanes;
+use crate::inversion::solve;
+use crate::simd::math::{COS, SIN, angle_of, horner_lanes, sin_cos, tan};
+use crate::simd::{Isa, Lanes};
+use core::marker::PhantomData;
+
+/// The order of the expansions.
+pub(crate) const ORDER: usize = 6;
+/// The order of the local polynomial of N.
+const COSINE_ORDER: usize = 10;
+/// The order of the product.
+const PRODUCT_ORDER: usize = ORDER + COSINE_ORDER;
+
+/// A Taylor polynomial of one factor of the integrand.
+pub(crate) trait Expansion<I: Isa> {
+    /// Coefficients from degree 0 on, up to a common factor.
+    fn coefficients(isa: I, geometry: &Geometry<I>, medium: &MediumLanes<I>) -> [I::V; ORDER + 1];
+    /// The angle up to which the polynomial is trusted \[rad\].
+    fn trusted(isa: I, geometry: &Geometry<I>, medium: &MediumLanes<I>) -> I::V;
+    /// Which lanes expand in `-theta`.
+    fn mirrored(isa: I, medium: &MediumLanes<I>) -> I::Mask;
+}
+
+pub(crate) struct Taylor<I: Isa, E> {
+    /// `P` in the angle `theta`, mirrored where the lane is.
+    p: [I::V; ORDER + 1],
+    theta_c: I::V,
+    mirrored: I::Mask,
+    /// `theta` at the start, and the angle to the end.
+    theta_a: I::V,
+    subtended: I::V,
+    /// Half the width of the first piece.
+    half: I::V,
+    /// `P N` on the first piece, in `x`, from degree 0 on.
+    product: [I::V; PRODUCT_ORDER + 1],
+    /// N at the end, and its antiderivative counted towards the interval.
+    n_b: I::V,
+    s_b: I::V,
+    /// Integrals of `P N` over `x` from the middle to -1, over `theta` on the pieces, and over both.
+    below: I::V,
+    mass_1: I::V,
+    mass_2: I::V,
+    /// `P(theta_c)`, the constant of the second piece.
+    p_c: I::V,
+    expansion: PhantomData<E>,
+}
+
+impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
+    #[inline(always)]
+    fn new(isa: I, geometry: &Geometry<I>, medium: &MediumLanes<I>) -> Self {
+        let c = |x| isa.splat(x);
+        let g = geometry;
+        let p = E::coefficients(isa, g, medium);
+        let theta_c = E::trusted(isa, g, medium);
+        let mirrored = E::mirrored(isa, medium);
+
+        // The ends in the order of the angle that is expanded.
+        let pick = |a: I::V, b: I::V| I::V::select(mirrored, b, a);
+        let start_t_prime = pick(g.a.t_prime, -g.b.t_prime);
+        let (n_a, n_b) = (pick(g.a.n, g.b.n), pick(g.b.n, g.a.n));
+        let (s_a, s_b) = (g.antiderivative(&g.a), -g.antiderivative(&g.b));
+        let (s_a, s_b) = (pick(s_a, s_b), pick(s_b, s_a));
+        let angle = angle_of(isa, start_t_prime.abs(), g.h);
+        let theta_a = I::V::select(start_t_prime.lt(c(0.0)), -angle, angle);
+        let subtended = g.subtended(isa);
+        let width = (theta_c - theta_a).max(c(0.0)).min(subtended);
+        let half = width * c(0.5);
+        let middle = theta_a + half;
+
+        // N and its derivative at the middle of the first piece, and N at its end, from the end where N is smaller:
+        // there both terms of N are positive.
+        let from_a = n_a.le(n_b);
+        let (n_e, s_e) = (I::V::select(from_a, n_a, n_b), I::V::select(from_a, s_a, s_b).abs());
+        let cosine_at = |delta: I::V| {
+            let (sin, cos) = sin_cos(isa, I::V::select(from_a, delta, subtended - delta));
+            let slope = s_e * cos - n_e * sin;
+            (n_e.mul_add(cos, s_e * sin), I::V::select(from_a, slope, -slope))
+        };
+        let one = c(1.0);
+        let (n_m, slope_m) = cosine_at(half);
+        let (n_c, slope_c) = cosine_at(width);
+        let n_m = I::V::select(g.has_normal, n_m, one);
+        let slope_m = I::V::select(g.has_normal, slope_m, c(0.0));
+        let wave = I::V::select(g.has_normal, half, c(0.0));
+
+        let product = multiply(isa, shift(p, middle, half), cosine_series(isa, n_m, slope_m, wave));
+        let integral = integrate(isa, &product);
+        let below = horner_lanes(-one, integral) * -one;
+        let above = horner_lanes(one, integral);
+        let mass_1 = (above - below) * half;
+
+        let p_c = horner_lanes(middle + half, p);
+        let rest = subtended - width;
+        let whole = width.eq(c(0.0));
+        let n_c = I::V::select(whole, n_a, n_c.max(c(0.0)));
+        // The antiderivative grows by N, so S = -N' counted along theta.
+        let s_c = I::V::select(whole, s_a, -slope_c);
+        let right_angle = c(core::f32::consts::FRAC_PI_2);
+        let tan_half = tan(isa, rest.min(right_angle) * c(0.5));
+        let cosines = mass_of_cosine::<I>([n_c, n_b], [s_c, -s_b], tan_half, right_angle.lt(rest));
+        let mass_2 = p_c * I::V::select(g.has_normal, cosines, rest);
+
+        Self {
+            p,
+            theta_c,
+            mirrored,
+            theta_a,
+            subtended,
+            half,
+            product,
+            n_b,
+            s_b,
+            below,
+            mass_1,
+            mass_2,
+            p_c,
+            expansion: PhantomData,
+        }
+    }
+
+    #[inline(always)]
+    fn invert(&self, isa: I, geometry: &Geometry<I>, u: I::V) -> Drawn<I> {
+        let c = |x| isa.splat(x);
+        let g = geometry;
+        let u = I::V::select(self.mirrored, c(1.0) - u, u);
+        let target = u * (self.mass_1 + self.mass_2);
+        let first = target.lt(self.mass_1);
+
+        // First piece: the angle from its middle, in units of its half width.
+        let integral = integrate(isa, &self.product);
+        let value = target / self.half.max(c(1e-37)) + self.below;
+        let scale = self.mass_1 / self.half.max(c(1e-37));
+        let f = |x: I::V| (x.mul_add(horner_lanes(x, integral), -value), horner_lanes(x, self.product));
+        let start = (u + u) * ((self.mass_1 + self.mass_2) / self.mass_1) - c(1.0);
+        let wanted = first & g.lit & g.valid;
+        let root = solve(isa, f, [c(-1.0), c(1.0)], start.min(c(1.0)), scale * c(1.2e-7), wanted);
+        let delta = self.half.mul_add(root.x, self.half);
+
+        // Second piece: the angle from the end.
+        let beyond = ((self.mass_1 + self.mass_2) - target).max(c(0.0)) / self.p_c;
+        let back = I::V::select(first, self.subtended - delta, beyond);
+        let near_start = first & delta.lt(back);
+        let nearest = I::V::select(near_start, delta, back.max(c(0.0)).min(self.subtended));
+        let right_angle = c(core::f32::consts::FRAC_PI_2);
+        let mut tan_half = tan(isa, nearest.min(right_angle) * c(0.5));
+        tan_half = I::V::select(first | !g.has_normal, tan_half, tan_half_at_mass(isa, self.n_b, self.s_b, beyond));
+        let from_a = (near_start & !self.mirrored) | (!near_start & self.mirrored);
+        let point = g.point_at_angle(isa, from_a, tan_half);
+        let theta = self.theta_a + I::V::select(first, delta, self.subtended);
+        let pdf = self.at(isa, g, &point, theta);
+        Drawn { point, pdf, bisected: root.bisected }
+    }
+
+    #[inline(always)]
+    fn pdf(&self, isa: I, geometry: &Geometry<I>, point: &Point<I>) -> Pdf<I> {
+        let angle = angle_of(isa, point.t_prime.abs(), geometry.h);
+        let negative = point.t_prime.lt(isa.splat(0.0));
+        let theta = I::V::select((negative & !self.mirrored) | (!negative & self.mirrored), -angle, angle);
+        self.at(isa, geometry, point, theta)
+    }
+}
+
+impl<I: Isa, E> Taylor<I, E> {
+    /// The density at a point whose (mirrored) angle is `theta`.
+    #[inline(always)]
+    fn at(&self, isa: I, geometry: &Geometry<I>, point: &Point<I>, theta: I::V) -> Pdf<I> {
+        let p = horner_lanes(theta.min(self.theta_c), self.p);
+        let p_theta = p * geometry.cosine(isa, point) / (self.mass_1 + self.mass_2);
+        Pdf::over_angle(p_theta, geometry.h, point.r)
+    }
+}
+
+/// The coefficients of `p(middle + half x)`.
+#[inline(always)]
+fn shift<V: Lanes>(p: [V; ORDER + 1], middle: V, half: V) -> [V; ORDER + 1] {
+    let mut q = p;
+    // Synthetic division by (theta - middle), again and again, leaves the shifted coefficients.
+    let mut first = 0;
+    while first < ORDER {
+        let mut k = ORDER;
+        while k > first {
+            q[k - 1] = q[k].mul_add(middle, q[k - 1]);
+            k -= 1;
+        }
+        first += 1;
+    }
+    let mut power = half;
+    let mut k = 1;
+    while k <= ORDER {
+        q[k] = q[k] * power;
+        power = power * half;
+        k += 1;
+    }
+    q
+}
+
+/// The coefficients of `n cos(wave x) + slope sin(wave x)` for `|x| <= 1`, `wave <= pi/2`.
+#[inline(always)]
+fn cosine_series<I: Isa>(isa: I, n: I::V, slope: I::V, wave: I::V) -> [I::V; COSINE_ORDER + 1] {
+    let mut q = [n; COSINE_ORDER + 1];
+    let z = wave * wave;
+    q[1] = slope * wave;
+    let (mut even, mut odd) = (n * z, q[1] * z);
+    let mut k = 1;
+    while k <= COSINE_ORDER / 2 {
+        q[2 * k] = even * isa.splat(COS[COS.len() - k]);
+        even = even * z;
+        if 2 * k + 1 <= COSINE_ORDER {
+            q[2 * k + 1] = odd * isa.splat(SIN[SIN.len() - k]);
+            odd = odd * z;
+        }
+        k += 1;
+    }
+    q
+}
+
+#[inline(always)]
+fn multiply<I: Isa>(isa: I, p: [I::V; ORDER + 1], q: [I::V; COSINE_ORDER + 1]) -> [I::V; PRODUCT_ORDER + 1] {
+    let mut product = [isa.splat(0.0); PRODUCT_ORDER + 1];
+    let mut i = 0;
+    while i <= ORDER {
+        let mut k = 0;
+        while k <= COSINE_ORDER {
+            product[i + k] = p[i].mul_add(q[k], product[i + k]);
+            k += 1;
+        }
+        i += 1;
+    }
+    product
+}
+
+/// The antiderivative that vanishes at 0, divided by `x`.
+#[inline(always)]
+fn integrate<I: Isa>(isa: I, p: &[I::V; PRODUCT_ORDER + 1]) -> [I::V; PRODUCT_ORDER + 1] {
+    let mut q = *p;
+    let mut k = 1;
+    while k <= PRODUCT_ORDER {
+        q[k] = q[k] * isa.splat(1.0 / (k + 1) as f32);
+        k += 1;
+    }
+    q
+}
