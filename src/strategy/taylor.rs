@@ -104,7 +104,7 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
         let above = horner_lanes(one, integral);
         let mass_1 = (above - below) * half;
 
-        let p_c = horner_lanes(middle + half, p);
+        let p_c = horner_lanes((middle + half).min(theta_c), p);
         let rest = subtended - width;
         let whole = width.eq(c(0.0));
         let n_c = I::V::select(whole, n_a, n_c.max(c(0.0)));
