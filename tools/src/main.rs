@@ -4,6 +4,7 @@
 
 mod arguments;
 mod check;
+mod deviation;
 mod npy;
 mod output;
 mod sample;

@@ -147,7 +147,7 @@ fn sample(args: &Args, wavefront: &Wavefront, strategy: Strategy, progress: &Pro
 impl Run {
     fn row(&self, args: &Args, wavefront: &Wavefront, check: &Check) -> Row {
         let whole = self.strata.all();
-        let subset = self.strata.of(&check.rays);
+        let subset = check.compare(self.strategy, &self.strata);
         let errors = check.cdf_errors(self.strategy, &wavefront.u, &self.first.t, &self.first.pdf);
         Row {
             strategy: self.strategy.name(),
@@ -160,10 +160,10 @@ impl Run {
             radiance: whole.mean,
             radiance_stderr: whole.stderr,
             check_rays: check.rays.len(),
-            check_estimate: subset.mean,
-            check_stderr: subset.stderr,
-            check_quadrature: check.quadrature,
-            check_z: check.z(&subset),
+            check_estimate: subset.map(|c| c.estimate),
+            check_stderr: subset.map(|c| c.stderr),
+            check_quadrature: subset.map(|c| c.quadrature),
+            check_z: subset.map(|c| c.z()),
             cdf_p999: quantile(&errors, 0.999),
             cdf_max: errors.last().copied(),
         }

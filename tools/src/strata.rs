@@ -36,6 +36,11 @@ impl Strata {
         }
     }
 
+    /// How often `ray` was sampled.
+    pub(crate) fn samples(&self, ray: usize) -> f64 {
+        f64::from(self.rays[ray].count)
+    }
+
     /// The estimate over all rays.
     pub(crate) fn all(&self) -> Estimate {
         estimate(self.rays.iter())

@@ -44,10 +44,12 @@ pub(super) struct Row {
     pub(super) bisected: usize,
     /// Mean weight over the wavefront \[1/m^2\].
     pub(super) radiance: Option<f64>,
+    /// Its standard error, from the spread of each ray's samples.
     pub(super) radiance_stderr: Option<f64>,
     /// Rays that were compared with the oracle; the following hold for them alone.
     pub(super) check_rays: usize,
     pub(super) check_estimate: Option<f64>,
+    /// The standard error that the oracle foretells.
     pub(super) check_stderr: Option<f64>,
     pub(super) check_quadrature: Option<f64>,
     pub(super) check_z: Option<f64>,
