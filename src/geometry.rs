@@ -218,7 +218,7 @@ impl<I: Isa> Geometry<I> {
         let t_prime = (self.h * scale) * te.mul_add(one_minus, two_tau * self.h);
         let t_prime = toward(t_prime, t_prime).max(self.a.t_prime).min(self.b.t_prime);
 
-        let rest = self.rest(offset, t_prime, I::V::select(from_a, self.b.t_prime, self.a.t_prime));
+        let rest = self.rest(isa, offset, t_prime, I::V::select(from_a, self.b.t_prime, self.a.t_prime));
         let (from_start, to_end) = (I::V::select(from_a, offset, rest), I::V::select(from_a, rest, offset));
         // m from the end where N is smaller: both terms are positive.
         let rising = c(0.0).le(self.beta);
@@ -229,27 +229,27 @@ impl<I: Isa> Geometry<I> {
 
     /// The point of the ray at the given distance, which may lie outside the lit interval.
     #[inline(always)]
-    pub(crate) fn point_at_distance(&self, t: I::V) -> Point<I> {
-        self.point(t, t.widen() - self.t_h)
+    pub(crate) fn point_at_distance(&self, isa: I, t: I::V) -> Point<I> {
+        self.point(isa, t, t.widen() - self.t_h)
     }
 
     /// The point at the distance `s` from `t_min`.
     #[inline(always)]
-    pub(crate) fn point_from_t_min(&self, s: I::V) -> Point<I> {
-        self.point((self.t_min + s).min(self.t_max), self.t_prime_min + s.widen())
+    pub(crate) fn point_from_t_min(&self, isa: I, s: I::V) -> Point<I> {
+        self.point(isa, (self.t_min + s).min(self.t_max), self.t_prime_min + s.widen())
     }
 
     #[inline(always)]
-    fn point(&self, t: I::V, t_prime: I::Double) -> Point<I> {
+    fn point(&self, isa: I, t: I::V, t_prime: I::Double) -> Point<I> {
         let m = I::V::narrow(self.beta_exact.mul_add(t_prime, self.alpha_h));
         let t_prime = I::V::narrow(t_prime);
-        Point { t, t_prime, r: self.r(t_prime), m: m.max(t - t) }
+        Point { t, t_prime, r: self.r(t_prime), m: m.max(isa.splat(0.0)) }
     }
 
     /// What is left of the interval beyond `offset` from one end: by the length, or by `t'` where that is smaller.
     #[inline(always)]
-    fn rest(&self, offset: I::V, t_prime: I::V, far_t_prime: I::V) -> I::V {
-        let by_length = (self.length - offset).max(offset - offset);
+    fn rest(&self, isa: I, offset: I::V, t_prime: I::V, far_t_prime: I::V) -> I::V {
+        let by_length = (self.length - offset).max(isa.splat(0.0));
         let size = t_prime.abs().max(far_t_prime.abs());
         I::V::select(self.length.lt(size), by_length, (t_prime - far_t_prime).abs())
     }

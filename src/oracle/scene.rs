@@ -11,8 +11,8 @@ use std::f64::consts::PI;
 /// - The normal is taken as it is: its length scales `N`.
 /// - `mu_t` is the medium's f32 sum.
 /// - `t_max` is at most [`FARTHEST`].
-/// - `h` is at least 1e-18 m and at least 1e-9 of `|t_h|` and `|t_min - t_h|`: an emitter on the ray's line is treated as one beside
-///   it. `alpha h` stays what it is.
+/// - `h` is at least 1e-18 m and at least 1e-9 of `|t_h|` and of `|t_min - t_h|`: an emitter on the ray's line is
+///   treated as one beside it. `alpha h` stays what it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scene {
     pub(super) t_min: f64,
@@ -270,11 +270,12 @@ mod tests {
     #[test]
     fn an_emitter_on_the_line_is_beside_it() {
         let scene = |h| straight((1.0, 9.0), (5.0, h), Some(Vec3::NEG_X), (0.0, 1.0, 0.0));
-        assert_close(scene(0.0).h(), 4e-12, 1e-15);
-        assert_close(scene(1e-9).h(), f64::from(1e-9f32), 1e-15);
+        assert_close(scene(0.0).h(), 5e-9, 1e-15);
+        assert_close(scene(1e-8).h(), f64::from(1e-8f32), 1e-15);
         assert_eq!(scene(0.0).alpha(), 0.0);
         assert_close(scene(0.0).lit().unwrap().1, 5.0, 1e-15);
-        assert_eq!(straight((5.0, 9.0), (5.0, 0.0), None, (0.0, 1.0, 0.0)).h(), 1e-18);
+        assert_close(straight((7.0, 9.0), (-2.0, 0.0), None, (0.0, 1.0, 0.0)).h(), 9e-9, 1e-15);
+        assert_eq!(straight((0.0, 9.0), (0.0, 0.0), None, (0.0, 1.0, 0.0)).h(), 1e-18);
     }
 
     #[test]

@@ -236,7 +236,7 @@ fn cosine_series<I: Isa>(isa: I, n: I::V, slope: I::V, wave: I::V) -> [I::V; COS
     while k <= COSINE_ORDER / 2 {
         q[2 * k] = even * isa.splat(COS[COS.len() - k]);
         even = even * z;
-        if 2 * k + 1 <= COSINE_ORDER {
+        if 2 * k < COSINE_ORDER {
             q[2 * k + 1] = odd * isa.splat(SIN[SIN.len() - k]);
             odd = odd * z;
         }
