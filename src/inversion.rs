@@ -2,13 +2,15 @@
 
 use crate::simd::{Isa, Lanes};
 
+/// Steps of Newton's method that a lane may take before it counts as bisected.
+const NEWTON_STEPS: usize = 8;
 /// Steps after which the iteration ends in any case.
-const STEPS: usize = 8;
+const STEPS: usize = 16;
 
 /// Where an increasing function takes a value.
 pub(crate) struct Root<I: Isa> {
     pub(crate) x: I::V,
-    /// Which lanes bisected at least once.
+    /// Which lanes bisected at least once, or took more than [`NEWTON_STEPS`].
     pub(crate) bisected: I::Mask,
 }
 
@@ -29,7 +31,7 @@ pub(crate) fn solve<I: Isa>(
     let (mut low, mut high, mut x) = (low, high, start);
     let mut bisected = !(wanted | !wanted);
     let mut active = wanted;
-    for _ in 0..STEPS {
+    for step in 0..STEPS {
         let (value, slope) = f(x);
         active = active & tolerance.lt(value.abs());
         if I::V::bits(active) == 0 {
@@ -41,7 +43,8 @@ pub(crate) fn solve<I: Isa>(
         let newton = x - value / slope;
         let inside = low.le(newton) & newton.le(high);
         let next = I::V::select(inside, newton, (low + high) * isa.splat(0.5));
-        bisected = bisected | (active & !inside);
+        let late = if step < NEWTON_STEPS { !inside } else { active };
+        bisected = bisected | (active & late);
         x = I::V::select(active, next, x);
     }
     Root { x, bisected }

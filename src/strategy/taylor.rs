@@ -48,12 +48,10 @@ pub(crate) struct Taylor<I: Isa, E> {
     half: I::V,
     /// `P N` on the first piece, in `x`, from degree 0 on.
     product: [I::V; PRODUCT_ORDER + 1],
-    /// Whether the second piece is all there is.
-    whole: I::Mask,
-    /// N at the ends, and its antiderivative counted towards the interval.
-    n_a: I::V,
+    /// N at the ends of the second piece, and its antiderivative counted into it.
+    n_c: I::V,
     n_b: I::V,
-    s_a: I::V,
+    s_c: I::V,
     s_b: I::V,
     /// Integrals of `P N` over `x` from the middle to -1, over `theta` on the pieces, and over both.
     below: I::V,
@@ -127,10 +125,9 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
             subtended,
             half,
             product,
-            whole,
-            n_a,
+            n_c,
             n_b,
-            s_a,
+            s_c,
             s_b,
             below,
             mass_1,
@@ -161,19 +158,24 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
         let off = self.subtended * c(6e-8);
         let delta = self.half.mul_add(root.x, self.half).max(off);
 
-        // Second piece: the angle from its nearer end, if that is one of the interval, or else from the end.
-        let rest = total - target;
-        let by_start = self.whole & target.lt(rest);
-        let cosines = I::V::select(by_start, target, rest).max(total * c(NEAREST)) / self.p_c;
-        let n_end = I::V::select(by_start, self.n_a, self.n_b);
-        let s_end = I::V::select(by_start, self.s_a, self.s_b);
+        // Second piece: from the end, or from its own start where that is near the interval's.
+        let (from_c, rest) = (target - self.mass_1, total - target);
+        let width = self.half + self.half;
+        let by_start = !first & from_c.lt(rest) & width.lt(self.subtended * c(0.25));
+        let cosines = I::V::select(by_start, from_c, rest).max(total * c(NEAREST)) / self.p_c;
+        let n_end = I::V::select(by_start, self.n_c, self.n_b);
+        let s_end = I::V::select(by_start, self.s_c, self.s_b);
+        let by_cosines = tan_half_at_mass(isa, n_end, s_end, cosines);
+        // tan of a sum: the first piece comes before.
+        let before = I::V::select(by_start, tan(isa, self.half), c(0.0));
+        let by_cosines = (by_cosines + before) / (c(1.0) - by_cosines * before);
 
         let to_end = self.subtended - delta;
         let near_start = (first & delta.lt(to_end)) | by_start;
-        let nearest = I::V::select(first, delta.min(to_end), cosines).max(off).min(self.subtended);
+        let uniform = cosines + I::V::select(by_start, width, c(0.0));
+        let nearest = I::V::select(first, delta.min(to_end), uniform).max(off).min(self.subtended);
         let right_angle = c(core::f32::consts::FRAC_PI_2);
         let by_angle = tan(isa, nearest.min(right_angle) * c(0.5));
-        let by_cosines = tan_half_at_mass(isa, n_end, s_end, cosines);
         let tan_half = I::V::select(first | !g.has_normal, by_angle, by_cosines);
         let from_a = (near_start & !self.mirrored) | (!near_start & self.mirrored);
         let point = g.point_at_angle(isa, from_a, tan_half);

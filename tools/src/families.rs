@@ -124,11 +124,11 @@ impl Case {
         Ok(Scene::new(&ray, &emitter, &Medium::new(self.mu_a, self.mu_s, self.g)?))
     }
 
-    /// Whether a coordinate is beyond what is promised to be told from invalid, or `mu_s` is denormal.
+    /// Whether a coordinate is beyond what is promised to be told from invalid, or `mu_s` next to nothing.
     #[must_use]
     pub fn is_extreme(&self) -> bool {
         let farthest = self.origin.abs().max_element().max(self.position.abs().max_element());
-        farthest > FARTHEST || self.mu_s.is_subnormal()
+        farthest > FARTHEST || (self.mu_s > 0.0 && self.mu_s < 1e-30)
     }
 
     fn generic(draw: &mut Draw) -> Self {
