@@ -137,7 +137,8 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
     fn invert(&self, isa: I, geometry: &Geometry<I>, u: I::V) -> Drawn<I> {
         let c = |x| isa.splat(x);
         let g = geometry;
-        let u = I::V::select(self.mirrored, c(1.0) - u, u);
+        let rest = c(1.0) - u;
+        let (u, rest) = (I::V::select(self.mirrored, rest, u), I::V::select(self.mirrored, u, rest));
         let target = u * (self.mass_1 + self.mass_2);
         let first = target.lt(self.mass_1);
 
@@ -151,8 +152,8 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
         let root = solve(isa, f, [c(-1.0), c(1.0)], start.min(c(1.0)), scale * c(1.2e-7), wanted);
         let delta = self.half.mul_add(root.x, self.half);
 
-        // Second piece: the angle from the end.
-        let beyond = ((self.mass_1 + self.mass_2) - target).max(c(0.0)) / self.p_c;
+        // Second piece: the angle from the end. `1 - u` is exact where `target` is not.
+        let beyond = rest * ((self.mass_1 + self.mass_2) / self.p_c);
         let back = I::V::select(first, self.subtended - delta, beyond);
         let near_start = first & delta.lt(back);
         let nearest = I::V::select(near_start, delta, back.max(c(0.0)).min(self.subtended));
