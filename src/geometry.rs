@@ -47,10 +47,8 @@ pub(crate) struct Point<I: Isa> {
     pub(crate) t_prime: I::V,
     /// Distance to the emitter \[m\].
     pub(crate) r: I::V,
-    /// `t - t_a` \[m\], not negative.
-    pub(crate) from_a: I::V,
-    /// `t_b - t` \[m\], not negative.
-    pub(crate) to_b: I::V,
+    /// `n.(x - y) = N r` \[m\], whatever it is without a normal; not negative where the point is lit.
+    m: I::V,
 }
 
 /// The geometry of a lane group.
@@ -72,6 +70,9 @@ pub(crate) struct Geometry<I: Isa> {
     pub(crate) t_max: I::V,
     t_h: I::Double,
     t_prime_min: I::Double,
+    /// `n.(x - y) = alpha_h + beta_exact t'`.
+    alpha_h: I::Double,
+    beta_exact: I::Double,
     /// Which lanes have an emitter with a normal.
     pub(crate) has_normal: I::Mask,
     /// Which lanes have a part that is lit.
@@ -106,7 +107,8 @@ impl<I: Isa> Geometry<I> {
         let t_prime_max = t_max.widen() - t_h;
         let [ta, tb] = [t_prime_min, t_prime_max].map(I::V::narrow);
         let h_squared = I::V::narrow(dot(foot, foot));
-        let h = h_squared.sqrt().max(ta.abs().max(c(1e-6)) * c(1e-12));
+        let scale = ta.abs().max(I::V::narrow(t_h).abs());
+        let h = h_squared.sqrt().max((scale * c(1e-9)).max(c(1e-18)));
         let length = t_max - ray.t_min;
 
         // The sign of m = n.(x - y) at the ends decides what is lit.
@@ -119,6 +121,7 @@ impl<I: Isa> Geometry<I> {
         let both = dark_a & dark_b;
         let (clip_a, clip_b) = (dark_a & !both, dark_b & !both);
 
+        let beta_exact = beta;
         let beta = I::V::narrow(beta);
         let inv_beta = c(1.0) / beta;
         let tn = (-I::V::narrow(alpha_h) * inv_beta).max(ta).min(tb);
@@ -143,14 +146,14 @@ impl<I: Isa> Geometry<I> {
         let b = End { t: t_b.min(t_max), t_prime: tb, r: rb, n: cosine(m_b, rb, clip_b), clipped: clip_b };
 
         // Below these f32 has no more to say about an interval: it subtends 1e-30 rad, is 1e-36 of r^2, or takes in
-        // 1e-34 of the light.
+        // 1e-25 of the light.
         let rr = ra * rb;
         let subtends = h * length;
         let obtuse = h.mul_add(h, ta * tb).lt(c(0.0));
         let wide = c(1e-18).lt(length)
             & (rr * c(1e-30)).lt(subtends)
             & (rr * c(1e-36)).lt(length)
-            & (obtuse | (rr * c(1e-34)).lt(subtends * (a.n + b.n)));
+            & (obtuse | (rr * c(1e-25)).lt(subtends * (a.n + b.n)));
         let nn = I::V::narrow(dot(n, n) - isa.splat_double(1.0));
         let tolerance = c(2.001 * UNIT_TOLERANCE);
         let valid = I::V::narrow(q).abs().le(tolerance)
@@ -172,6 +175,8 @@ impl<I: Isa> Geometry<I> {
             t_max,
             t_h,
             t_prime_min,
+            alpha_h,
+            beta_exact,
             has_normal,
             lit: wide & !both,
             valid,
@@ -213,40 +218,38 @@ impl<I: Isa> Geometry<I> {
         let t_prime = (self.h * scale) * te.mul_add(one_minus, two_tau * self.h);
         let t_prime = toward(t_prime, t_prime).max(self.a.t_prime).min(self.b.t_prime);
 
-        let rest = self.rest(offset, t_prime, I::V::select(from_a, self.b.t_prime, self.a.t_prime));
+        let rest = self.rest(isa, offset, t_prime, I::V::select(from_a, self.b.t_prime, self.a.t_prime));
         let (from_start, to_end) = (I::V::select(from_a, offset, rest), I::V::select(from_a, rest, offset));
-        let t = self.distance(isa, t_prime, from_start, to_end);
-        Point { t, t_prime, r: self.r(t_prime), from_a: from_start, to_b: to_end }
+        // m from the end where N is smaller: both terms are positive.
+        let rising = c(0.0).le(self.beta);
+        let m_end = I::V::select(rising, self.a.n * self.a.r, self.b.n * self.b.r);
+        let m = self.beta.abs().mul_add(I::V::select(rising, from_start, to_end), m_end);
+        Point { t: self.distance(isa, t_prime, from_start, to_end), t_prime, r: self.r(t_prime), m }
     }
 
     /// The point of the ray at the given distance, which may lie outside the lit interval.
     #[inline(always)]
-    pub(crate) fn point_at_distance(&self, t: I::V) -> Point<I> {
-        self.point(t, I::V::narrow(t.widen() - self.t_h), t - self.t_min)
+    pub(crate) fn point_at_distance(&self, isa: I, t: I::V) -> Point<I> {
+        self.point(isa, t, t.widen() - self.t_h)
     }
 
     /// The point at the distance `s` from `t_min`.
     #[inline(always)]
-    pub(crate) fn point_from_t_min(&self, s: I::V) -> Point<I> {
-        self.point((self.t_min + s).min(self.t_max), I::V::narrow(self.t_prime_min + s.widen()), s)
+    pub(crate) fn point_from_t_min(&self, isa: I, s: I::V) -> Point<I> {
+        self.point(isa, (self.t_min + s).min(self.t_max), self.t_prime_min + s.widen())
     }
 
     #[inline(always)]
-    fn point(&self, t: I::V, t_prime: I::V, from_t_min: I::V) -> Point<I> {
-        let zero = t - t;
-        let to_t_max = self.t_max - t;
-        let from_a = I::V::select(self.a.clipped, self.rest(to_t_max, t_prime, self.a.t_prime), from_t_min);
-        let to_b = I::V::select(self.b.clipped, self.rest(from_t_min, t_prime, self.b.t_prime), to_t_max);
-        // Outside the lit interval the length of the rest is measured to the wrong side: there N is 0.
-        let from_a = I::V::select(self.a.clipped & t_prime.le(self.a.t_prime), zero, from_a);
-        let to_b = I::V::select(self.b.clipped & self.b.t_prime.le(t_prime), zero, to_b);
-        Point { t, t_prime, r: self.r(t_prime), from_a: from_a.max(zero), to_b: to_b.max(zero) }
+    fn point(&self, isa: I, t: I::V, t_prime: I::Double) -> Point<I> {
+        let m = I::V::narrow(self.beta_exact.mul_add(t_prime, self.alpha_h));
+        let t_prime = I::V::narrow(t_prime);
+        Point { t, t_prime, r: self.r(t_prime), m: m.max(isa.splat(0.0)) }
     }
 
     /// What is left of the interval beyond `offset` from one end: by the length, or by `t'` where that is smaller.
     #[inline(always)]
-    fn rest(&self, offset: I::V, t_prime: I::V, far_t_prime: I::V) -> I::V {
-        let by_length = (self.length - offset).max(offset - offset);
+    fn rest(&self, isa: I, offset: I::V, t_prime: I::V, far_t_prime: I::V) -> I::V {
+        let by_length = (self.length - offset).max(isa.splat(0.0));
         let size = t_prime.abs().max(far_t_prime.abs());
         I::V::select(self.length.lt(size), by_length, (t_prime - far_t_prime).abs())
     }
@@ -268,15 +271,10 @@ impl<I: Isa> Geometry<I> {
         t_prime.mul_add(t_prime, self.h * self.h).sqrt()
     }
 
-    /// The cosine `N` at a point, from the end towards which it falls.
+    /// The cosine `N` at a point.
     #[inline(always)]
     pub(crate) fn cosine(&self, isa: I, point: &Point<I>) -> I::V {
-        let c = |x| isa.splat(x);
-        let rising = c(0.0).le(self.beta);
-        let m_end = I::V::select(rising, self.a.n * self.a.r, self.b.n * self.b.r);
-        let way = I::V::select(rising, point.from_a, point.to_b);
-        let m = self.beta.abs().mul_add(way, m_end);
-        I::V::select(self.has_normal, m / point.r, c(1.0))
+        I::V::select(self.has_normal, point.m / point.r, isa.splat(1.0))
     }
 
     /// The length of the path from `t_min` over the point to the emitter \[m\].

@@ -165,7 +165,7 @@ impl Task for Pdf {
                 let valid = valid & t.eq(t);
                 let [low, high] = D::support(&geometry);
                 let inside = valid & geometry.lit & low.le(t) & t.le(high);
-                let pdf = D::new(isa, &geometry, &medium).pdf(isa, &geometry, &geometry.point_at_distance(t));
+                let pdf = D::new(isa, &geometry, &medium).pdf(isa, &geometry, &geometry.point_at_distance(isa, t));
                 I::V::select(inside, pdf.over_t, zero).store_prefix(&mut out[range]);
                 (valid, !(valid | !valid))
             },
@@ -190,7 +190,7 @@ impl Task for Evaluate {
                 let Group { geometry, medium, given: t, valid } = group;
                 let valid = valid & t.eq(t);
                 let inside = valid & geometry.lit & geometry.t_min.le(t) & t.le(geometry.t_max);
-                let point = geometry.point_at_distance(t);
+                let point = geometry.point_at_distance(isa, t);
                 let f = integrand_r2(isa, &geometry, &medium, &point) / (point.r * point.r);
                 I::V::select(inside, f.min(isa.splat(f32::MAX)), zero).store_prefix(&mut out[range]);
                 (valid, !(valid | !valid))

@@ -128,8 +128,8 @@ impl Angular {
         }
     }
 
-    /// The mass where the weight is smooth, by quadrature: (22) cancels on narrow arcs. For a polynomial of order 6 times
-    /// `N`, on an arc of at most pi, 16 nodes are enough to the last digit.
+    /// The mass where the weight is smooth, by quadrature: (22) cancels on narrow arcs. For a polynomial of order 6
+    /// times `N`, on an arc of at most pi, 16 nodes are enough to the last digit.
     fn mass_of_piece(&self, lower: Angle, upper: Angle) -> f64 {
         Angle::between(lower, upper) * gauss_legendre(|s| self.weight(Angle::lerp(lower, upper, s)), 0.0, 1.0)
     }

@@ -50,7 +50,7 @@ pub(super) fn scene() -> impl Strategy<Value = Scene> {
 
 /// A variate from 0 to 1, small ones too.
 pub(super) fn uniform() -> impl Strategy<Value = f64> {
-    prop_oneof![0f64..=1.0, (-24f64..0.0).prop_map(f64::exp2)]
+    prop_oneof![0f64..=1.0, (-53f64..0.0).prop_map(f64::exp2)]
 }
 
 /// The settings of a random test of `cases` cases: a failure prints the smallest scene that fails.

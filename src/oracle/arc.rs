@@ -33,8 +33,8 @@ impl Angle {
 
 /// The part from `t_a` to `t_b` of a ray, where `N > 0` between the ends.
 ///
-/// With `theta` come its complements `psi = pi/2 + theta` and `chi = pi/2 - theta`, the ray's angles with the line to the
-/// emitter: they, not `theta`, resolve the far ends of a long ray, where `theta` is nearly -pi/2 and pi/2.
+/// With `theta` come its complements `psi = pi/2 + theta` and `chi = pi/2 - theta`, the ray's angles with the line to
+/// the emitter: they, not `theta`, resolve the far ends of a long ray, where `theta` is nearly -pi/2 and pi/2.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Arc {
     pub(super) t_a: f64,
@@ -151,7 +151,8 @@ impl Arc {
         n.max(0.0)
     }
 
-    /// The integral of `N` over the directions from `lower` to `upper`, `2 sin((theta_1 - theta_0)/2) N((theta_0 + theta_1)/2)`.
+    /// The integral of `N` over the directions from `lower` to `upper`: twice the sine of half the angle between them,
+    /// times `N` in the middle.
     pub(super) fn integral_of_cosine(&self, lower: Angle, upper: Angle) -> f64 {
         let width = Angle::between(lower, upper);
         if self.cosines.is_none() {
@@ -172,4 +173,88 @@ impl Arc {
 /// The angle at the emitter between the points at `a` and `b` from the perpendicular's foot, `length` apart \[m\].
 pub(super) fn subtended(h: f64, length: f64, a: f64, b: f64) -> f64 {
     (h * length).atan2(h * h + a * b)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    fn assert_close(value: f64, expected: f64, relative: f64) {
+        assert!(
+            (value - expected).abs() <= relative * expected.abs(),
+            "{value:e} is not {expected:e} within {relative}"
+        );
+    }
+
+    #[test]
+    fn half_a_turn_by_hand() {
+        let arc = Arc::new(1.0, 1.0, (0.0, 2.0), None).unwrap();
+        assert_close(arc.width(), 0.5 * PI, 1e-15);
+        let foot = arc.at(1.0);
+        assert_close(foot.from_a, 0.25 * PI, 1e-15);
+        assert_close(foot.to_b, 0.25 * PI, 1e-15);
+        assert_close(arc.cos_theta(foot), 1.0, 1e-15);
+        assert!(arc.theta(foot).abs() < 1e-15);
+        assert_close(arc.t(foot), 1.0, 1e-15);
+        assert_close(arc.one_plus_sin_theta(1.0, arc.end()), 1.0 + 0.5f64.sqrt(), 1e-15);
+        assert_close(arc.one_plus_sin_theta(-1.0, arc.end()), 1.0 - 0.5f64.sqrt(), 1e-15);
+        assert_close(arc.integral_of_cosine(arc.start(), foot), 0.25 * PI, 1e-15);
+        let down = Normal { alpha_h: 1.0, beta: 0.0 };
+        let arc = Arc::new(1.0, 1.0, (0.0, 2.0), Some(down)).unwrap();
+        assert_close(arc.integral_of_cosine(arc.start(), foot), 0.5f64.sqrt(), 1e-15);
+    }
+
+    #[test]
+    fn an_angle_between_directions_has_all_its_digits() {
+        let arc = Arc::new(1.0, 5.0, (0.0, 11.0), None).unwrap();
+        let near_the_end = Angle { from_a: arc.width(), to_b: 1e-20 };
+        assert_eq!(Angle::between(near_the_end, arc.end()), 1e-20);
+        assert_eq!(Angle::between(arc.start(), arc.at_odds(-50.0)), arc.width() / (1.0 + 50f64.exp()));
+    }
+
+    /// On a long ray past a near emitter, both ends are resolved, and so is what lies between.
+    #[test]
+    fn a_direction_has_its_distance() {
+        for h in [1e-9, 1e-3, 1.0] {
+            let arc = Arc::new(h, 5.0, (0.0, 11.0), None).unwrap();
+            for from_end in [1e-9, 1e-3, 1.0, 4.0] {
+                assert_close(arc.t(arc.at(from_end)), from_end, 1e-14);
+                assert_close(11.0 - arc.t(arc.at(11.0 - from_end)), from_end, 1e-14 + 1e-14 / from_end);
+            }
+        }
+        let arc = Arc::new(1.0, 5.0, (0.0, 1e18), None).unwrap();
+        for t in [1.0, 1e3, 1e9, 1e15] {
+            assert_close(arc.t(arc.at(t)), t, 1e-14);
+        }
+    }
+
+    /// N is 0 at the emitter's horizon; beside it, it is no difference of large numbers.
+    #[test]
+    fn the_cosine_is_exact_at_either_horizon() {
+        for sign in [-1.0, 1.0] {
+            let normal = Normal { alpha_h: 0.8, beta: 0.6 * sign };
+            let horizon = -0.8 / (0.6 * sign);
+            // from t_h = 0 on, t is t'
+            let arc = Arc::new(1.0, 0.0, (-9.0, 9.0), Some(normal)).unwrap();
+            assert_eq!(if sign > 0.0 { arc.t_a } else { arc.t_b }, horizon);
+            assert_eq!(arc.cosine(if sign > 0.0 { arc.start() } else { arc.end() }), 0.0);
+            for away in [1e-9, 1e-6, 1e-3, 1.0] {
+                let t = horizon + sign * away;
+                let exact = 0.6 * (t - horizon).abs() / t.hypot(1.0);
+                assert_close(arc.cosine(arc.at(t)), exact, 1e-14);
+            }
+        }
+    }
+
+    #[test]
+    fn what_the_normal_turns_away_from_is_dark() {
+        let arc = |alpha_h, beta| Arc::new(1.0, 0.0, (1.0, 9.0), Some(Normal { alpha_h, beta }));
+        assert_eq!(arc(-1.0, 0.0), None);
+        assert_eq!(arc(0.0, 0.0), None);
+        assert_eq!(arc(0.0, -1.0), None);
+        assert_eq!(arc(0.8, -0.8), None); // lit up to t = 1
+        assert_eq!(arc(0.8, -0.4).map(|arc| (arc.t_a, arc.t_b)), Some((1.0, 2.0)));
+        assert_eq!(Arc::new(1.0, 0.0, (1.0, 1.0), None), None);
+    }
 }

@@ -6,7 +6,7 @@
 //! | `EquiAngular` | 1 | `theta` | the lit part |
 //! | `PointNormal` | `N` | `theta` | the lit part |
 //! | `TaylorTransmittance` | `N P(min(theta, theta_c))`, `P` the polynomial (4)-(10) for `mu_t h` up to 32 | `theta` | the lit part |
-//! | `TaylorPhase` | `N P(min(s theta, theta_c))`, `P` the polynomial (13)-(19) for `|g|`, `s` the sign of `g` | `theta` | the lit part |
+//! | `TaylorPhase` | `N P(min(s theta, theta_c))`, `P` the polynomial (13)-(19) for `abs(g)`, `s` the sign of `g` | `theta` | the lit part |
 
 use super::angular::{Angular, Shape, Taylor};
 use super::arc::Arc;
@@ -20,8 +20,8 @@ enum Density {
     Angle(Angular),
 }
 
-/// The density of a strategy, over distance. A scene without a [lit](Scene::lit) part has none: its pdf is 0, and its cdf
-/// and the inverse are NaN.
+/// The density of a strategy, over distance. A scene without a [lit](Scene::lit) part has none: its pdf is 0, and its
+/// cdf and the inverse are NaN.
 impl Scene {
     /// The probability of a distance of at most `t` \[m\].
     #[must_use]
@@ -117,8 +117,24 @@ mod tests {
                     let (first, last) = if strategy == Strategy::Transmittance { scene.interval() } else { (t_a, t_b) };
                     prop_assert!((first..=last).contains(&t), "{strategy}: {t}");
                     let error = (scene.cdf(strategy, t) - u).abs();
-                    prop_assert!(error <= 1e-12 + of_rounding(&scene, strategy, t), "{strategy}: {error:e} at u = {u}, t = {t}");
+                    prop_assert!(error <= 1e-12 + of_rounding(&scene, strategy, t), "{strategy}: {error:e} at u = {u}");
                 }
+            }
+        }
+
+        #[test]
+        fn outside_there_is_nothing(scene in scene()) {
+            for strategy in Strategy::ALL {
+                let Some(lit) = scene.lit() else {
+                    prop_assert!(scene.pdf(strategy, scene.t_min) == 0.0 && scene.invert(strategy, 0.5).is_nan());
+                    continue;
+                };
+                let (first, last) = if strategy == Strategy::Transmittance { scene.interval() } else { lit };
+                for (t, cdf) in [(first.next_down(), 0.0), (last.next_up(), 1.0)] {
+                    prop_assert!(scene.pdf(strategy, t) == 0.0, "{strategy} at {t}");
+                    prop_assert!(scene.cdf(strategy, t) == cdf, "{strategy} at {t}");
+                }
+                prop_assert!(scene.invert(strategy, 0.0) == first && scene.invert(strategy, 1.0) == last);
             }
         }
 

@@ -63,4 +63,12 @@ mod tests {
         assert!((density.cdf(1.0 + half_life) - 0.5).abs() < 1e-15);
         assert!((density.pdf(1.0 + half_life) - 0.5).abs() < 1e-15);
     }
+
+    #[test]
+    fn no_distance_is_beyond_the_end() {
+        for mu_t in (0..2000).map(|i| f64::from(i) * 1e-3) {
+            let t = Exponential::new(mu_t, (0.1, 1.7)).invert(1.0 - f64::EPSILON / 2.0);
+            assert!(t <= 1.7, "{t} at mu_t = {mu_t}");
+        }
+    }
 }

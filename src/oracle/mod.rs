@@ -11,7 +11,7 @@
 //! | `t_h` | the `t` of the foot of the perpendicular from `y` onto the ray's line, signed \[m\] |
 //! | `h` | the distance from `y` to that line \[m\] |
 //! | `t'` | `t - t_h` \[m\] |
-//! | `r` | `|x(t) - y| = sqrt(h^2 + t'^2)` \[m\] |
+//! | `r` | `sqrt(h^2 + t'^2)`, the distance from `x(t)` to `y` \[m\] |
 //! | `theta` | `atan(t'/h)`, the angle at the emitter from the perpendicular \[rad\] |
 //! | `N` | `max(0, n.(x(t) - y)/r) = max(0, alpha cos theta + beta sin theta)`; 1 without a normal |
 //! | `T` | `exp(-mu_t (t - t_min + r))`, the transmittance from the emitter to the start of the medium |

@@ -143,3 +143,21 @@ pub fn transmittance_clamp(m: f64) -> f64 {
 pub fn phase_clamp(g: f64) -> f64 {
     18.8217 + g * (-93.8831 + g * (184.173 + g * (-160.212 + g * 51.7683)))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_published_clamps_by_hand() {
+        for (value, expected) in [
+            (transmittance_clamp(0.0), 1.234_695),
+            (transmittance_clamp(2.0), 0.897_039),
+            (phase_clamp(0.0), 18.8217),
+            (phase_clamp(0.5), 1.132_419),
+            (phase_clamp(1.0), 0.6679),
+        ] {
+            assert!((value - expected).abs() < 1e-6, "{value} is not {expected}");
+        }
+    }
+}

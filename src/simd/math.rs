@@ -72,7 +72,7 @@ pub(crate) fn sin_cos<I: Isa>(isa: I, x: I::V) -> (I::V, I::V) {
 /// Coefficients, highest degree first, of `(sin y / y - 1) / y^2` in `y^2`, for `|y| <= pi/2`.
 pub(crate) const SIN: [f32; 4] = [2.605_779_2e-6, -1.980_960_2e-4, 8.333_066e-3, -1.666_666e-1];
 /// Coefficients, highest degree first, of `(cos y - 1) / y^2` in `y^2`, for `|y| <= pi/2`.
-pub(crate) const COS: [f32; 5] = [-2.607_711_2e-7, 2.476_188_6e-5, -1.388_840_4e-3, 4.166_664_2e-2, -0.5];
+pub(crate) const COS: [f32; 5] = [-2.607_711_2e-7, 2.476_188_6e-5, -1.388_840_4e-3, 4.166_664e-2, -0.5];
 
 #[inline(always)]
 fn sin_series<I: Isa>(isa: I, z: I::V) -> I::V {

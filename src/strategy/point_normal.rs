@@ -33,6 +33,9 @@ pub(crate) fn tan_half_at_mass<I: Isa>(isa: I, n_end: I::V, s_end: I::V, mass: I
     mass / (n + n_end).max(isa.splat(1e-37))
 }
 
+/// The least share of the mass between a sample and an end of the interval.
+pub(crate) const NEAREST: f32 = 1e-12;
+
 impl<I: Isa> Density<I> for PointNormal<I> {
     #[inline(always)]
     fn new(isa: I, geometry: &Geometry<I>, _: &MediumLanes<I>) -> Self {
@@ -52,7 +55,8 @@ impl<I: Isa> Density<I> for PointNormal<I> {
         let g = geometry;
         let rest = isa.splat(1.0) - u;
         let from_a = u.le(rest);
-        let mass = self.mass * u.min(rest);
+        // Off the very end, where N may be 0.
+        let mass = self.mass * u.min(rest).max(isa.splat(NEAREST));
         let n_end = I::V::select(from_a, g.a.n, g.b.n);
         let s_end = I::V::select(from_a, self.s_a, self.s_b);
         let mut tan_half = tan_half_at_mass(isa, n_end, s_end, mass);

@@ -10,7 +10,7 @@
 //!
 //! The angle may be mirrored (backward scattering, `g < 0`): then `theta` runs from `b` to `a`.
 
-use super::point_normal::{mass_of_cosine, tan_half_at_mass};
+use super::point_normal::{NEAREST, mass_of_cosine, tan_half_at_mass};
 use crate::density::{Density, Drawn, Pdf};
 use crate::geometry::{Geometry, Point};
 use crate::integrand::MediumLanes;
@@ -48,8 +48,12 @@ pub(crate) struct Taylor<I: Isa, E> {
     half: I::V,
     /// `P N` on the first piece, in `x`, from degree 0 on.
     product: [I::V; PRODUCT_ORDER + 1],
-    /// N at the end, and its antiderivative counted towards the interval.
+    /// Whether the second piece is all there is.
+    whole: I::Mask,
+    /// N at the ends, and its antiderivative counted towards the interval.
+    n_a: I::V,
     n_b: I::V,
+    s_a: I::V,
     s_b: I::V,
     /// Integrals of `P N` over `x` from the middle to -1, over `theta` on the pieces, and over both.
     below: I::V,
@@ -123,7 +127,10 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
             subtended,
             half,
             product,
+            whole,
+            n_a,
             n_b,
+            s_a,
             s_b,
             below,
             mass_1,
@@ -137,9 +144,9 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
     fn invert(&self, isa: I, geometry: &Geometry<I>, u: I::V) -> Drawn<I> {
         let c = |x| isa.splat(x);
         let g = geometry;
-        let rest = c(1.0) - u;
-        let (u, rest) = (I::V::select(self.mirrored, rest, u), I::V::select(self.mirrored, u, rest));
-        let target = u * (self.mass_1 + self.mass_2);
+        let u = I::V::select(self.mirrored, c(1.0) - u, u);
+        let total = self.mass_1 + self.mass_2;
+        let target = u * total;
         let first = target.lt(self.mass_1);
 
         // First piece: the angle from its middle, in units of its half width.
@@ -147,19 +154,27 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
         let value = target / self.half.max(c(1e-37)) + self.below;
         let scale = self.mass_1 / self.half.max(c(1e-37));
         let f = |x: I::V| (x.mul_add(horner_lanes(x, integral), -value), horner_lanes(x, self.product));
-        let start = (u + u) * ((self.mass_1 + self.mass_2) / self.mass_1) - c(1.0);
+        let start = (u + u) * (total / self.mass_1) - c(1.0);
         let wanted = first & g.lit & g.valid;
         let root = solve(isa, f, [c(-1.0), c(1.0)], start.min(c(1.0)), scale * c(1.2e-7), wanted);
-        let delta = self.half.mul_add(root.x, self.half);
+        // Off the very ends, where N may be 0.
+        let off = self.subtended * c(6e-8);
+        let delta = self.half.mul_add(root.x, self.half).max(off);
 
-        // Second piece: the angle from the end. `1 - u` is exact where `target` is not.
-        let beyond = rest * ((self.mass_1 + self.mass_2) / self.p_c);
-        let back = I::V::select(first, self.subtended - delta, beyond);
-        let near_start = first & delta.lt(back);
-        let nearest = I::V::select(near_start, delta, back.max(c(0.0)).min(self.subtended));
+        // Second piece: the angle from its nearer end, if that is one of the interval, or else from the end.
+        let rest = total - target;
+        let by_start = self.whole & target.lt(rest);
+        let cosines = I::V::select(by_start, target, rest).max(total * c(NEAREST)) / self.p_c;
+        let n_end = I::V::select(by_start, self.n_a, self.n_b);
+        let s_end = I::V::select(by_start, self.s_a, self.s_b);
+
+        let to_end = self.subtended - delta;
+        let near_start = (first & delta.lt(to_end)) | by_start;
+        let nearest = I::V::select(first, delta.min(to_end), cosines).max(off).min(self.subtended);
         let right_angle = c(core::f32::consts::FRAC_PI_2);
-        let mut tan_half = tan(isa, nearest.min(right_angle) * c(0.5));
-        tan_half = I::V::select(first | !g.has_normal, tan_half, tan_half_at_mass(isa, self.n_b, self.s_b, beyond));
+        let by_angle = tan(isa, nearest.min(right_angle) * c(0.5));
+        let by_cosines = tan_half_at_mass(isa, n_end, s_end, cosines);
+        let tan_half = I::V::select(first | !g.has_normal, by_angle, by_cosines);
         let from_a = (near_start & !self.mirrored) | (!near_start & self.mirrored);
         let point = g.point_at_angle(isa, from_a, tan_half);
         let theta = self.theta_a + I::V::select(first, delta, self.subtended);
@@ -221,7 +236,7 @@ fn cosine_series<I: Isa>(isa: I, n: I::V, slope: I::V, wave: I::V) -> [I::V; COS
     while k <= COSINE_ORDER / 2 {
         q[2 * k] = even * isa.splat(COS[COS.len() - k]);
         even = even * z;
-        if 2 * k + 1 <= COSINE_ORDER {
+        if 2 * k < COSINE_ORDER {
             q[2 * k + 1] = odd * isa.splat(SIN[SIN.len() - k]);
             odd = odd * z;
         }

@@ -40,7 +40,7 @@ impl<I: Isa> Density<I> for Transmittance<I> {
         let remaining = u.mul_add(self.passed, isa.splat(1.0) - u).max(isa.splat(1e-37));
         let depth = neg_ln_1m(isa, u * self.absorbed, remaining);
         let s = I::V::select(self.uniform, u * self.length, depth / self.mu_t).min(self.length);
-        let point = geometry.point_from_t_min(s);
+        let point = geometry.point_from_t_min(isa, s);
         let pdf = Pdf::over_distance(self.at(isa, s), point.r);
         Drawn { point, pdf, bisected: none(isa) }
     }

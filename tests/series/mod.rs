@@ -1,4 +1,4 @@
-//! The Taylor series of T and rho about theta = 0 from their differential equations, knowing none of the paper's tables.
+//! The Taylor series of T and rho about theta = 0 from their differential equations, not from the paper's tables.
 
 use airlight::oracle::paper::Polynomial;
 

@@ -1,0 +1,41 @@
+//! Arguments that several subcommands share.
+
+use crate::output::Target;
+use airlight::Medium;
+use anyhow::Result;
+use std::path::{Path, PathBuf};
+
+/// Where the figures go beside the table.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Json {
+    /// Write the figures as JSON, to standard output instead of the table if FILE is '-'
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+}
+
+impl Json {
+    /// The destination, refused at once if it cannot be written.
+    pub(crate) fn target(&self) -> Result<Option<Target>> {
+        self.json
+            .as_deref()
+            .map(|path| if path == Path::new("-") { Ok(Target::Stdout) } else { Target::file(path) })
+            .transpose()
+    }
+}
+
+/// Reads a medium written as `mu_a,mu_s,g`.
+pub(crate) fn medium(text: &str) -> Result<Medium, String> {
+    let numbers: Result<Vec<f32>, _> = text.split(',').map(|number| number.trim().parse()).collect();
+    match numbers.as_deref() {
+        Ok(&[mu_a, mu_s, g]) => Medium::new(mu_a, mu_s, g).map_err(|error| error.to_string()),
+        _ => Err("expected three numbers: mu_a,mu_s,g".to_owned()),
+    }
+}
+
+/// Reads a whole number of at least 1.
+pub(crate) fn positive(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(number) if number > 0 => Ok(number),
+        _ => Err("expected a whole number of at least 1".to_owned()),
+    }
+}

@@ -1,0 +1,115 @@
+//! The oracle's word on a subset of a wavefront's rays.
+
+use crate::deviation::variance;
+use crate::strata::Strata;
+use crate::variates;
+use crate::wavefront::Wavefront;
+use airlight::oracle::Scene;
+use airlight::{Medium, Strategy};
+use rayon::prelude::*;
+
+/// Relative size of a difference that f32 weights cannot resolve, however many of them are averaged. Nor can they hold
+/// what is below `f32::MIN_POSITIVE`.
+const RESOLUTION: f64 = 4.0 * f32::EPSILON as f64;
+
+/// A subset of rays with their scenes in f64.
+#[derive(Debug)]
+pub(crate) struct Check {
+    /// The rays, in ascending order.
+    pub(crate) rays: Vec<usize>,
+    /// Their scenes and radiances by quadrature; none for an invalid ray.
+    scenes: Vec<Option<(Scene, f64)>>,
+}
+
+/// A strategy's estimate beside the quadrature.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Comparison {
+    /// The mean over the subset of each ray's mean weight.
+    pub(crate) estimate: f64,
+    /// Its standard error, from the variances that the oracle foretells.
+    pub(crate) stderr: f64,
+    /// The mean of the radiances.
+    pub(crate) quadrature: f64,
+}
+
+impl Comparison {
+    /// By how many standard errors the estimate is above the quadrature.
+    pub(crate) fn z(&self) -> f64 {
+        let difference = self.estimate - self.quadrature;
+        difference / self.stderr.hypot(RESOLUTION * self.quadrature + f64::from(f32::MIN_POSITIVE))
+    }
+}
+
+impl Check {
+    /// `count` of the first `reached` rays, the same for every seed.
+    pub(crate) fn new(wavefront: &Wavefront, medium: &Medium, reached: usize, count: usize) -> Self {
+        let rays = spread(reached, count.min(reached));
+        let scene = |&i: &usize| {
+            let scene = Scene::new(&wavefront.ray(i).ok()?, &wavefront.emitter(i).ok()?, medium);
+            Some((scene, scene.radiance()))
+        };
+        let scenes = rays.par_iter().map(scene).collect();
+        Self { rays, scenes }
+    }
+
+    /// What `strategy` made of the subset; none if that is empty.
+    pub(crate) fn compare(&self, strategy: Strategy, strata: &Strata) -> Option<Comparison> {
+        let count = self.rays.len() as f64;
+        let quadrature = self.scenes.iter().flatten().map(|(_, radiance)| radiance).sum::<f64>() / count;
+        let of_mean = |(&i, scene): (&usize, &Option<(Scene, f64)>)| {
+            let (scene, radiance) = scene.as_ref()?;
+            Some(variance(scene, strategy, *radiance) / strata.samples(i))
+        };
+        // Collected before it is summed: the order must not depend on the threads.
+        let variances: Vec<f64> = self.rays.par_iter().zip(&self.scenes).filter_map(of_mean).collect();
+        let stderr = variances.iter().sum::<f64>().sqrt() / count;
+        Some(Comparison { estimate: strata.of(&self.rays).mean?, stderr, quadrature })
+    }
+
+    /// `|CDF(t) - u|` of the rays that have a sample, in ascending order.
+    pub(crate) fn cdf_errors(&self, strategy: Strategy, u: &[f32], t: &[f32], pdf: &[f32]) -> Vec<f64> {
+        let error = |(&i, scene): (&usize, &Option<(Scene, f64)>)| {
+            let (scene, _) = scene.as_ref().filter(|_| pdf[i] > 0.0)?;
+            Some((scene.cdf(strategy, f64::from(t[i])) - f64::from(u[i])).abs())
+        };
+        let mut errors: Vec<f64> = self.rays.par_iter().zip(&self.scenes).filter_map(error).collect();
+        errors.sort_by(f64::total_cmp);
+        errors
+    }
+}
+
+/// One of each of `count` equal stretches of the numbers below `end`. Which one is drawn by lot: every k-th would be a
+/// few columns of the image.
+fn spread(end: usize, count: usize) -> Vec<usize> {
+    let mut lots = vec![0.0; count];
+    variates::fill(0, 0, &mut lots);
+    let stretch = |i| i * end / count..(i + 1) * end / count;
+    lots.iter()
+        .enumerate()
+        .map(|(i, lot)| stretch(i).start + (f64::from(*lot) * stretch(i).len() as f64) as usize)
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_subset_is_spread_and_distinct() {
+        for (end, count) in [(65536, 256), (1000, 7), (1000, 999), (5, 5), (5, 0)] {
+            let rays = spread(end, count);
+            assert_eq!(rays.len(), count);
+            assert!(rays.iter().enumerate().all(|(i, ray)| (i * end / count..(i + 1) * end / count).contains(ray)));
+        }
+        let columns: std::collections::HashSet<_> = spread(65536, 256).iter().map(|ray| ray % 256).collect();
+        assert!(columns.len() > 128, "{} of 256 columns", columns.len());
+    }
+
+    #[test]
+    fn z_counts_standard_errors_and_not_the_rounding_of_f32() {
+        let z = |estimate, stderr| Comparison { estimate, stderr, quadrature: 2.0 }.z();
+        assert!((z(2.3, 0.1) - 3.0).abs() < 1e-6);
+        assert!(z(2.0 + 2e-7, 0.0) < 1.0);
+        assert_eq!(z(2.0, 0.0), 0.0);
+    }
+}

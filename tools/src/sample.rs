@@ -1,0 +1,200 @@
+//! `airlight sample`: samples a wavefront over and over, and holds the result against the oracle.
+
+mod figures;
+
+use self::figures::{Figures, Row};
+use crate::arguments::{self, Json};
+use crate::check::Check;
+use crate::output::{self, Target};
+use crate::strata::Strata;
+use crate::variates;
+use crate::wavefront::Wavefront;
+use airlight::{Counts, Media, Medium, Sampler, Samples, Strategy};
+use anyhow::{Context, Result, ensure};
+use indicatif::{ProgressBar, ProgressStyle};
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+/// Sample a wavefront with each strategy; report throughput, radiance and agreement with quadrature
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// Wavefront to sample [default: the built-in Cornell box in fog]
+    #[arg(value_name = "WAVEFRONT.npz")]
+    wavefront: Option<PathBuf>,
+    /// Medium: absorption and scattering coefficient [1/m] and mean cosine
+    #[arg(long, value_name = "MU_A,MU_S,G", default_value = "0.1,0.3,0.6", allow_hyphen_values = true)]
+    #[arg(value_parser = arguments::medium)]
+    medium: Medium,
+    /// Rays to sample with each strategy, by repeating the wavefront with fresh variates
+    #[arg(long, value_name = "RAYS", default_value = "16000000", value_parser = arguments::positive)]
+    rays: usize,
+    #[arg(long, value_name = "NAME", help = format!("Strategy to run, may be repeated [default: all of {}]", names()))]
+    strategy: Vec<Strategy>,
+    /// Rays of the wavefront to compare with quadrature
+    #[arg(long, value_name = "RAYS", default_value_t = 4096)]
+    check: usize,
+    /// Seed of the variates of all repetitions but the first, whose variates are the wavefront's own
+    #[arg(long, default_value_t = 0)]
+    seed: u64,
+    /// Threads to sample with [default: one per core]
+    #[arg(long, value_name = "N", value_parser = arguments::positive)]
+    threads: Option<usize>,
+    /// Write the columns t, pdf and weight of the first repetition; takes exactly one --strategy
+    #[arg(long, value_name = "FILE.npz")]
+    output: Option<PathBuf>,
+    #[command(flatten)]
+    json: Json,
+}
+
+/// Runs the job.
+pub(crate) fn run(args: &Args) -> Result<()> {
+    ensure!(args.output.is_none() || args.strategy.len() == 1, "--output takes exactly one --strategy");
+    let output = args.output.as_deref().map(Target::file).transpose()?;
+    let json = args.json.target()?;
+    let wavefront = args.wavefront.as_deref().map_or_else(Wavefront::cornell, Wavefront::read)?;
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(args.threads.unwrap_or(0))
+        .build()
+        .context("cannot start the threads")?;
+
+    let (figures, columns) = pool.install(|| measure(args, &wavefront))?;
+
+    if let Some(output) = output {
+        let Columns { t, pdf, weight } = &columns;
+        output.write(&output::npz(&[("t", t), ("pdf", pdf), ("weight", weight)])?)?;
+    }
+    output::report(&figures, json.as_ref())
+}
+
+/// The figures of every strategy, and the first repetition of the last.
+fn measure(args: &Args, wavefront: &Wavefront) -> Result<(Figures, Columns)> {
+    let strategies = if args.strategy.is_empty() { &Strategy::ALL[..] } else { &args.strategy };
+    let progress = progress(strategies.len().saturating_mul(args.rays))?;
+    progress.set_message("quadrature");
+    let check = Check::new(wavefront, &args.medium, args.rays.min(wavefront.len()), args.check);
+
+    let mut rows = Vec::new();
+    let mut first = Columns::default();
+    for &strategy in strategies {
+        progress.set_message(strategy.name());
+        let run = sample(args, wavefront, strategy, &progress)?;
+        rows.push(run.row(args, wavefront, &check));
+        first = run.first;
+    }
+    progress.finish_and_clear();
+    let figures = Figures {
+        version: env!("CARGO_PKG_VERSION"),
+        wavefront: wavefront.name.clone(),
+        wavefront_rays: wavefront.len(),
+        rays: args.rays,
+        medium: args.medium.into(),
+        seed: args.seed,
+        threads: rayon::current_num_threads(),
+        results: rows,
+    };
+    Ok((figures, first))
+}
+
+/// What one strategy made of the wavefront.
+struct Run {
+    strategy: Strategy,
+    counts: Counts,
+    /// Time inside the sampler alone.
+    sampling: Duration,
+    strata: Strata,
+    first: Columns,
+}
+
+#[derive(Clone, Default)]
+struct Columns {
+    t: Vec<f32>,
+    pdf: Vec<f32>,
+    weight: Vec<f32>,
+}
+
+/// Samples the wavefront in batches of one repetition; the last one may be a part of it.
+fn sample(args: &Args, wavefront: &Wavefront, strategy: Strategy, progress: &ProgressBar) -> Result<Run> {
+    let reached = args.rays.min(wavefront.len());
+    let sampler = Sampler::new(strategy);
+    let media = Media::One(args.medium);
+    let (mut counts, mut sampling) = (Counts::default(), Duration::ZERO);
+    let mut strata = Strata::new(reached);
+    let mut u = wavefront.u[..reached].to_vec();
+    let mut columns = Columns::new(reached);
+    let mut first = Columns::default();
+
+    for start in (0..args.rays).step_by(reached) {
+        let count = reached.min(args.rays - start);
+        if start > 0 {
+            variates::fill(args.seed, start as u64, &mut u[..count]);
+        }
+        let rays = wavefront.rays(count);
+        let emitters = wavefront.emitters(count);
+        let mut samples = columns.samples(count);
+        let clock = Instant::now();
+        counts = counts + sampler.sample(&rays, &emitters, &media, &u[..count], &mut samples)?;
+        sampling += clock.elapsed();
+
+        strata.add(&columns.weight[..count]);
+        if start == 0 {
+            first = columns.clone();
+        }
+        progress.inc(count as u64);
+    }
+    Ok(Run { strategy, counts, sampling, strata, first })
+}
+
+impl Run {
+    fn row(&self, args: &Args, wavefront: &Wavefront, check: &Check) -> Row {
+        let whole = self.strata.all();
+        let subset = check.compare(self.strategy, &self.strata);
+        let errors = check.cdf_errors(self.strategy, &wavefront.u, &self.first.t, &self.first.pdf);
+        Row {
+            strategy: self.strategy.name(),
+            rays: args.rays,
+            msamples_per_s: args.rays as f64 / (1e6 * self.sampling.as_secs_f64()),
+            sampled: self.counts.sampled,
+            empty: self.counts.empty,
+            invalid: self.counts.invalid,
+            bisected: self.counts.bisected,
+            radiance: whole.mean,
+            radiance_stderr: whole.stderr,
+            check_rays: check.rays.len(),
+            check_estimate: subset.map(|c| c.estimate),
+            check_stderr: subset.map(|c| c.stderr),
+            check_quadrature: subset.map(|c| c.quadrature),
+            check_z: subset.map(|c| c.z()),
+            cdf_p999: quantile(&errors, 0.999),
+            cdf_max: errors.last().copied(),
+        }
+    }
+}
+
+impl Columns {
+    fn new(length: usize) -> Self {
+        let column = vec![0.0; length];
+        Self { t: column.clone(), pdf: column.clone(), weight: column }
+    }
+
+    /// The first `count` rows, to be written.
+    fn samples(&mut self, count: usize) -> Samples<'_> {
+        let Self { t, pdf, weight } = self;
+        Samples { t: &mut t[..count], pdf: &mut pdf[..count], weight: Some(&mut weight[..count]), r: None }
+    }
+}
+
+/// The smallest of the values, which ascend, that a share of at least `p` of them does not exceed.
+fn quantile(ascending: &[f64], p: f64) -> Option<f64> {
+    let rank = (p * ascending.len() as f64).ceil() as usize;
+    ascending.get(rank.max(1) - 1).copied()
+}
+
+/// A bar on standard error, hidden where that is no terminal.
+fn progress(rays: usize) -> Result<ProgressBar> {
+    let style = ProgressStyle::with_template("{msg:20} {wide_bar} {percent:>3} %  {eta}")?;
+    Ok(ProgressBar::new(rays as u64).with_style(style))
+}
+
+fn names() -> String {
+    Strategy::ALL.map(Strategy::name).join(", ")
+}

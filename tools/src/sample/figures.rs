@@ -1,0 +1,117 @@
+//! What `airlight sample` found, as JSON and as a table.
+
+use airlight::Medium;
+use comfy_table::{CellAlignment, Table, presets};
+use serde::Serialize;
+use std::fmt;
+
+/// The settings and a row per strategy. The names of the fields are the keys of the JSON, which others read.
+#[derive(Debug, Serialize)]
+pub(super) struct Figures {
+    pub(super) version: &'static str,
+    pub(super) wavefront: String,
+    pub(super) wavefront_rays: usize,
+    pub(super) rays: usize,
+    pub(super) medium: Coefficients,
+    pub(super) seed: u64,
+    pub(super) threads: usize,
+    pub(super) results: Vec<Row>,
+}
+
+/// A medium, spelt out.
+#[derive(Debug, Serialize)]
+pub(super) struct Coefficients {
+    mu_a: f32,
+    mu_s: f32,
+    g: f32,
+}
+
+impl From<Medium> for Coefficients {
+    fn from(medium: Medium) -> Self {
+        Self { mu_a: medium.mu_a(), mu_s: medium.mu_s(), g: medium.g() }
+    }
+}
+
+/// One strategy; what cannot be told, such as the standard error of a single repetition, is none.
+#[derive(Debug, Serialize)]
+pub(super) struct Row {
+    pub(super) strategy: &'static str,
+    pub(super) rays: usize,
+    pub(super) msamples_per_s: f64,
+    pub(super) sampled: usize,
+    pub(super) empty: usize,
+    pub(super) invalid: usize,
+    pub(super) bisected: usize,
+    /// Mean weight over the wavefront \[1/m^2\].
+    pub(super) radiance: Option<f64>,
+    /// Its standard error, from the spread of each ray's samples.
+    pub(super) radiance_stderr: Option<f64>,
+    /// Rays that were compared with the oracle; the following hold for them alone.
+    pub(super) check_rays: usize,
+    pub(super) check_estimate: Option<f64>,
+    /// The standard error that the oracle foretells.
+    pub(super) check_stderr: Option<f64>,
+    pub(super) check_quadrature: Option<f64>,
+    pub(super) check_z: Option<f64>,
+    /// The 0.999 quantile and the maximum of `|CDF(t) - u|` in the first repetition.
+    pub(super) cdf_p999: Option<f64>,
+    pub(super) cdf_max: Option<f64>,
+}
+
+impl fmt::Display for Figures {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Coefficients { mu_a, mu_s, g } = self.medium;
+        writeln!(f, "{}: {} rays, {} samples per strategy", self.wavefront, self.wavefront_rays, self.rays)?;
+        writeln!(f, "medium: mu_a {mu_a} /m, mu_s {mu_s} /m, g {g}; seed {}, threads {}", self.seed, self.threads)?;
+
+        let mut speed = table(["strategy", "Msamples/s", "sampled", "empty", "invalid", "bisected"]);
+        for row in &self.results {
+            speed.add_row([
+                row.strategy.to_owned(),
+                format!("{:.1}", row.msamples_per_s),
+                row.sampled.to_string(),
+                row.empty.to_string(),
+                row.invalid.to_string(),
+                row.bisected.to_string(),
+            ]);
+        }
+        writeln!(f, "\n{}", lines(&speed))?;
+
+        let mut radiance =
+            table(["strategy", "radiance", "+-", "estimate", "+-", "quadrature", "z", "CDF p99.9", "CDF max"]);
+        for row in &self.results {
+            radiance.add_row([
+                row.strategy.to_owned(),
+                figure(row.radiance, |x| format!("{x:.5e}")),
+                figure(row.radiance_stderr, |x| format!("{x:.1e}")),
+                figure(row.check_estimate, |x| format!("{x:.5e}")),
+                figure(row.check_stderr, |x| format!("{x:.1e}")),
+                figure(row.check_quadrature, |x| format!("{x:.5e}")),
+                figure(row.check_z, |x| format!("{x:+.2}")),
+                figure(row.cdf_p999, |x| format!("{x:.1e}")),
+                figure(row.cdf_max, |x| format!("{x:.1e}")),
+            ]);
+        }
+        let checked = self.results.first().map_or(0, |row| row.check_rays);
+        writeln!(f, "\n{}", lines(&radiance))?;
+        writeln!(f, "\nestimate, quadrature, z and CDF, which is |CDF(t) - u|: on {checked} of the rays")
+    }
+}
+
+fn table<const COLUMNS: usize>(heads: [&str; COLUMNS]) -> Table {
+    let mut table = Table::new();
+    table.load_style(presets::NOTHING).set_header(heads);
+    for column in table.column_iter_mut().skip(1) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    table
+}
+
+/// The table without the spaces that pad its lines.
+fn lines(table: &Table) -> String {
+    table.lines().map(|line| line.trim().to_owned()).collect::<Vec<_>>().join("\n")
+}
+
+fn figure(value: Option<f64>, format: impl Fn(f64) -> String) -> String {
+    value.map_or_else(|| "-".to_owned(), format)
+}

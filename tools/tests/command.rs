@@ -1,0 +1,378 @@
+//! The built command, as it is met from outside.
+
+use airlight::{Emitters, Media, Medium, Rays, Sampler, Samples, Strategy};
+use serde_json::Value;
+use std::fs;
+use std::io::{Cursor, Read, Write};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use tempfile::TempDir;
+
+const COLUMNS: [&str; 15] =
+    ["ox", "oy", "oz", "dx", "dy", "dz", "t_min", "t_max", "ex", "ey", "ez", "nx", "ny", "nz", "u"];
+const KEYS: [&str; 16] = [
+    "bisected",
+    "cdf_max",
+    "cdf_p999",
+    "check_estimate",
+    "check_quadrature",
+    "check_rays",
+    "check_stderr",
+    "check_z",
+    "empty",
+    "invalid",
+    "msamples_per_s",
+    "radiance",
+    "radiance_stderr",
+    "rays",
+    "sampled",
+    "strategy",
+];
+
+fn airlight(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_airlight")).args(arguments).output().unwrap()
+}
+
+/// Standard output of a run that must succeed and say nothing on standard error.
+fn succeed(arguments: &[&str]) -> String {
+    let output = airlight(arguments);
+    let stderr = String::from_utf8(output.stderr).unwrap();
+    assert_eq!((output.status.code(), &*stderr), (Some(0), ""), "{arguments:?}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// The one line on standard error of a run that must fail and say nothing on standard output.
+fn fail(arguments: &[&str]) -> String {
+    let output = airlight(arguments);
+    let stderr = String::from_utf8(output.stderr).unwrap();
+    assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0), "{arguments:?}: {stderr}");
+    assert!(stderr.starts_with("error: ") && stderr.lines().count() == 1, "{arguments:?}: {stderr}");
+    stderr
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
+}
+
+/// An .npz file in the making: a dtype, a shape and the data of each column.
+#[derive(Clone)]
+struct Npz(Vec<(String, String, String, Vec<u8>)>);
+
+impl Npz {
+    /// Eight rays above a row of lamps; the last one is invalid.
+    fn wavefront() -> Self {
+        const RAYS: usize = 8;
+        let column = |name| {
+            let value = |i: usize| match name {
+                "dx" if i == RAYS - 1 => f32::NAN,
+                "dx" => 1.0,
+                "t_max" => 3.0,
+                "ex" => i as f32 * 0.25,
+                "ey" => 1.0,
+                "ny" if i % 2 == 1 => -1.0,
+                "u" => (i as f32 + 0.5) / RAYS as f32,
+                _ => 0.0,
+            };
+            (0..RAYS).map(value).collect::<Vec<_>>()
+        };
+        Self(vec![]).with_all(&COLUMNS.map(|name| (name, column(name))))
+    }
+
+    fn with_all(self, columns: &[(&str, Vec<f32>)]) -> Self {
+        columns.iter().fold(self, |npz, (name, values)| {
+            let data: Vec<u8> = values.iter().flat_map(|value| value.to_le_bytes()).collect();
+            npz.with(name, "'<f4'", &format!("({},)", values.len()), &data)
+        })
+    }
+
+    /// With `name` added or put in place of what was called so.
+    fn with(mut self, name: &str, dtype: &str, shape: &str, data: &[u8]) -> Self {
+        let column = (name.to_owned(), dtype.to_owned(), shape.to_owned(), data.to_owned());
+        match self.0.iter_mut().find(|column| column.0 == name) {
+            Some(present) => *present = column,
+            None => self.0.push(column),
+        }
+        self
+    }
+
+    fn without(mut self, name: &str) -> Self {
+        self.0.retain(|column| column.0 != name);
+        self
+    }
+
+    fn bytes(&self, compression: zip::CompressionMethod) -> Vec<u8> {
+        let options = zip::write::SimpleFileOptions::default().compression_method(compression);
+        let mut zip = zip::ZipWriter::new(Cursor::new(vec![]));
+        for (name, dtype, shape, data) in &self.0 {
+            let header = format!("{{'descr': {dtype}, 'fortran_order': False, 'shape': {shape}, }}\n");
+            zip.start_file(format!("{name}.npy"), options).unwrap();
+            zip.write_all(b"\x93NUMPY\x01\x00").unwrap();
+            zip.write_all(&u16::try_from(header.len()).unwrap().to_le_bytes()).unwrap();
+            zip.write_all(header.as_bytes()).unwrap();
+            zip.write_all(data).unwrap();
+        }
+        zip.finish().unwrap().into_inner()
+    }
+
+    fn stored(&self) -> Vec<u8> {
+        self.bytes(zip::CompressionMethod::Stored)
+    }
+
+    /// The values of one of its columns.
+    fn column(&self, name: &str) -> Vec<f32> {
+        floats(&self.0.iter().find(|column| column.0 == name).unwrap().3)
+    }
+}
+
+fn floats(data: &[u8]) -> Vec<f32> {
+    data.as_chunks().0.iter().map(|&value| f32::from_le_bytes(value)).collect()
+}
+
+/// A column of an .npz file and the dtype and shape that its header states.
+fn read(npz: &Path, name: &str) -> (String, Vec<f32>) {
+    let mut zip = zip::ZipArchive::new(fs::File::open(npz).unwrap()).unwrap();
+    let mut file = vec![];
+    zip.by_name(&format!("{name}.npy")).unwrap().read_to_end(&mut file).unwrap();
+    let start = 10 + usize::from(u16::from_le_bytes([file[8], file[9]]));
+    assert_eq!((&file[..8], start % 64), (&b"\x93NUMPY\x01\x00"[..], 0));
+    (String::from_utf8(file[10..start].to_vec()).unwrap(), floats(&file[start..]))
+}
+
+/// A folder with a file in it, as arguments want them.
+fn folder_with(name: &str, bytes: &[u8]) -> (TempDir, String) {
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join(name);
+    fs::write(&path, bytes).unwrap();
+    (folder, path.into_os_string().into_string().unwrap())
+}
+
+fn text(path: &Path) -> &str {
+    path.to_str().unwrap()
+}
+
+#[test]
+fn a_small_run_ends_with_a_table_that_agrees_with_quadrature() {
+    let table = succeed(&["sample", "--rays", "131072", "--check", "256"]);
+    for strategy in Strategy::ALL {
+        let rows: Vec<Vec<&str>> = table
+            .lines()
+            .map(|line| line.split_whitespace().collect::<Vec<_>>())
+            .filter(|row| row.first() == Some(&strategy.name()))
+            .collect();
+        let [speed, radiance] = &rows[..] else { panic!("{strategy} has not two rows in\n{table}") };
+        assert!(speed[1].parse::<f64>().unwrap() > 0.0, "{table}");
+        assert_eq!(speed[2..5].iter().map(|count| count.parse::<u64>().unwrap()).sum::<u64>(), 131_072, "{table}");
+        assert_eq!(speed[4], "0", "{table}");
+        let z: f64 = radiance[6].parse().unwrap();
+        assert!(z.abs() < 5.0, "{table}");
+        assert!(radiance[8].parse::<f64>().unwrap() < 1e-3, "{table}");
+    }
+}
+
+#[test]
+fn json_on_standard_output_stands_alone() {
+    let text = succeed(&["sample", "--rays", "131072", "--check", "64", "--seed", "3", "--json", "-"]);
+    let figures: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(figures["rays"], 131_072);
+    assert_eq!(figures["seed"], 3);
+    assert_eq!(figures["wavefront_rays"], 65_536);
+    let results = figures["results"].as_array().unwrap();
+    let strategies: Vec<_> = results.iter().map(|row| row["strategy"].as_str().unwrap()).collect();
+    assert_eq!(strategies, Strategy::ALL.map(Strategy::name));
+    for row in results {
+        let mut keys: Vec<_> = row.as_object().unwrap().keys().collect();
+        keys.sort();
+        assert_eq!(keys, KEYS);
+        assert_eq!(row["check_rays"], 64);
+        assert!(row["radiance"].as_f64().unwrap() > 0.0);
+        assert!(row["radiance_stderr"].as_f64().unwrap() > 0.0);
+    }
+}
+
+#[test]
+fn json_in_a_file_comes_with_the_table() {
+    let folder = TempDir::new().unwrap();
+    let json = folder.path().join("figures.json");
+    let table = succeed(&["sample", "--rays", "1000", "--check", "10", "--json", text(&json)]);
+    assert!(table.starts_with("cornell"), "{table}");
+    let figures: Value = serde_json::from_slice(&fs::read(&json).unwrap()).unwrap();
+    // A single repetition has no spread to estimate.
+    let row = &figures["results"][0];
+    assert!(row["radiance"].is_f64() && row["radiance_stderr"].is_null() && row["check_z"].is_f64(), "{row}");
+    assert_eq!(names(folder.path()), ["figures.json"]);
+}
+
+#[test]
+fn figures_depend_on_the_seed_and_not_on_the_threads() {
+    let figures = |seed, threads| {
+        let arguments = ["sample", "--rays", "150000", "--check", "50", "--json", "-", "--seed", seed];
+        let text = succeed(&[&arguments[..], &["--threads", threads]].concat());
+        let mut figures: Value = serde_json::from_str(&text).unwrap();
+        assert_eq!(figures["threads"].to_string(), threads);
+        for row in figures["results"].as_array_mut().unwrap() {
+            row["msamples_per_s"] = Value::Null;
+        }
+        figures["results"].take()
+    };
+    assert_eq!(figures("1", "1"), figures("1", "2"));
+    assert_ne!(figures("1", "1"), figures("2", "1"));
+}
+
+#[test]
+fn the_output_is_the_first_repetition_for_any_number_of_threads() {
+    let folder = TempDir::new().unwrap();
+    let files = ["1", "2"].map(|threads| {
+        let file = folder.path().join(threads);
+        let arguments = ["sample", "--strategy", "point-normal", "--rays", "100000", "--threads", threads];
+        succeed(&[&arguments[..], &["--check", "0", "--output", text(&file)]].concat());
+        assert_eq!(read(&file, "weight").1.len(), 65_536);
+        fs::read(file).unwrap()
+    });
+    assert!(files[0] == files[1], "the files differ");
+}
+
+#[test]
+fn the_output_holds_the_samples_in_the_wavefronts_order() {
+    let npz = Npz::wavefront();
+    let (folder, wavefront) = folder_with("w.npz", &npz.bytes(zip::CompressionMethod::Deflated));
+    let output = folder.path().join("samples.npz");
+    let arguments = ["sample", &wavefront, "--strategy", "equi-angular", "--medium", "0.2,0.5,-0.3", "--rays", "30"];
+    succeed(&[&arguments[..], &["--output", text(&output)]].concat());
+
+    let columns: Vec<Vec<f32>> = COLUMNS.iter().map(|name| npz.column(name)).collect();
+    let xyz = |first: usize| [0, 1, 2].map(|axis| &columns[first + axis][..]);
+    let [mut t, mut pdf, mut weight] = [0, 1, 2].map(|_| vec![f32::NAN; 8]);
+    let counts = Sampler::new(Strategy::EquiAngular)
+        .sample(
+            &Rays { origin: xyz(0), direction: xyz(3), t_min: &columns[6], t_max: &columns[7] },
+            &Emitters::Each { position: xyz(8), normal: xyz(11) },
+            &Media::One(Medium::new(0.2, 0.5, -0.3).unwrap()),
+            &columns[14],
+            &mut Samples { t: &mut t, pdf: &mut pdf, weight: Some(&mut weight), r: None },
+        )
+        .unwrap();
+    assert_eq!((counts.sampled, counts.invalid), (7, 1));
+    for (name, expected) in [("t", t), ("pdf", pdf), ("weight", weight)] {
+        let (header, values) = read(&output, name);
+        assert_eq!(header.trim_end(), "{'descr': '<f4', 'fortran_order': False, 'shape': (8,), }");
+        assert_eq!(values, expected, "{name}");
+        assert_eq!(values[7], 0.0, "{name} of the invalid ray");
+    }
+    let mut folder = names(folder.path());
+    folder.sort();
+    assert_eq!(folder, ["samples.npz", "w.npz"]);
+}
+
+#[test]
+fn a_bad_wavefront_is_refused_by_name_and_nothing_is_written() {
+    let good = Npz::wavefront();
+    let stored = good.stored();
+    let corrupt = {
+        let mut file = stored.clone();
+        let at = file.windows(4).position(|bytes| bytes == 3f32.to_le_bytes()).unwrap();
+        file[at] ^= 1;
+        file
+    };
+    let values = |column: &str, dtype, shape, bytes| good.clone().with(column, dtype, shape, &vec![0; bytes]).stored();
+    let empty = COLUMNS.iter().fold(good.clone(), |npz, name| npz.with(name, "'<f4'", "(0,)", &[])).stored();
+    let cases = [
+        ("missing column", good.clone().without("nz").stored(), "column 'nz': is missing"),
+        ("length", values("ey", "'<f4'", "(7,)", 28), "column 'ey' has 7 values, column 'ox' has 8"),
+        ("float64", values("t_max", "'<f8'", "(8,)", 64), "column 't_max': dtype is float64 ('<f8')"),
+        ("int32", values("u", "'<i4'", "(8,)", 32), "column 'u': dtype is int32 ('<i4')"),
+        ("bool", values("u", "'|b1'", "(8,)", 8), "column 'u': dtype is bool ('|b1')"),
+        ("structured", values("u", "[('x', '<f4')]", "(8,)", 32), "column 'u': dtype is structured ([('x', '<f4')])"),
+        ("big-endian", values("dz", "'>f4'", "(8,)", 32), "column 'dz': dtype is big-endian float32 ('>f4')"),
+        ("two dimensions", values("dz", "'<f4'", "(4, 2)", 32), "column 'dz': has 2 dimensions, expected 1"),
+        ("no dimension", values("dz", "'<f4'", "()", 4), "column 'dz': has 0 dimensions, expected 1"),
+        ("short", values("oz", "'<f4'", "(8,)", 31), "column 'oz': holds 31 bytes of data, expected 8 values of 4"),
+        ("long", values("oz", "'<f4'", "(8,)", 36), "column 'oz': holds 36 bytes of data, expected 8 values of 4"),
+        ("huge", values("oz", "'<f4'", "(99999999999999999999,)", 32), "column 'oz': the .npy header"),
+        ("truncated", stored[..stored.len() / 2].to_vec(), "not a complete .npz file"),
+        ("corrupt", corrupt, "column 't_max': the data are corrupt"),
+        ("text", b"ox oy oz\n".to_vec(), "not a complete .npz file"),
+        ("nothing", vec![], "not a complete .npz file"),
+        ("empty", empty, "the wavefront is empty"),
+    ];
+    // The original is no such case.
+    let (_kept, path) = folder_with("good.npz", &stored);
+    succeed(&["sample", &path, "--rays", "8"]);
+    for (case, bytes, expected) in cases {
+        let (folder, wavefront) = folder_with("bad.npz", &bytes);
+        let [output, json] = ["out.npz", "out.json"].map(|name| folder.path().join(name));
+        let arguments = ["sample", &wavefront, "--strategy", "equi-angular", "--rays", "8"];
+        let told = fail(&[&arguments[..], &["--output", text(&output), "--json", text(&json)]].concat());
+        assert!(told.contains(expected) && told.contains(&wavefront), "{case}: {told}");
+        assert_eq!(names(folder.path()), ["bad.npz"], "{case}");
+    }
+}
+
+#[test]
+fn a_missing_wavefront_is_refused_by_name() {
+    let folder = TempDir::new().unwrap();
+    let missing = folder.path().join("missing.npz");
+    assert!(fail(&["sample", text(&missing)]).contains(text(&missing)));
+    assert!(fail(&["sample", text(folder.path())]).contains(text(folder.path())));
+}
+
+#[test]
+fn an_unwritable_output_is_refused_by_name() {
+    let folder = TempDir::new().unwrap();
+    let mut refused = vec![folder.path().to_owned(), folder.path().join("no/such/folder/out")];
+    if cfg!(target_os = "linux") {
+        refused.push(PathBuf::from("/dev/full"));
+    }
+    for path in refused {
+        for option in ["--output", "--json"] {
+            let arguments = ["sample", "--rays", "10", "--strategy", "equi-angular", option, text(&path)];
+            let told = fail(&arguments);
+            assert!(told.contains("cannot write") && told.contains(text(&path)), "{told}");
+        }
+    }
+    assert!(names(folder.path()).is_empty());
+}
+
+#[test]
+fn what_was_there_stays_when_the_run_fails() {
+    let (folder, output) = folder_with("out.npz", b"precious");
+    fail(&["sample", "no-such-wavefront.npz", "--strategy", "equi-angular", "--output", &output]);
+    assert_eq!(fs::read(&output).unwrap(), b"precious");
+    assert_eq!(names(folder.path()), ["out.npz"]);
+}
+
+#[test]
+fn a_refused_argument_is_named() {
+    let folder = TempDir::new().unwrap();
+    let output = folder.path().join("out.npz");
+    for (arguments, expected) in [
+        (&["--rays", "0"][..], "--rays <RAYS>': expected a whole number of at least 1"),
+        (&["--rays", "many"], "--rays <RAYS>': expected a whole number of at least 1"),
+        (&["--threads", "0"], "--threads <N>': expected a whole number of at least 1"),
+        (&["--medium", "0.1,0.3"], "--medium <MU_A,MU_S,G>': expected three numbers"),
+        (&["--medium", "a,b,c"], "--medium <MU_A,MU_S,G>': expected three numbers"),
+        (&["--medium", "-1,0.3,0"], "mu_a is -1, expected a finite value >= 0"),
+        (&["--medium", "0.1,nan,0"], "mu_s is NaN, expected a finite value >= 0"),
+        (&["--medium", "0.1,0.3,1.5"], "g is 1.5, expected -1 <= g <= 1"),
+        (&["--strategy", "best"], "no strategy is called 'best'; there are transmittance"),
+        (&[], "--output takes exactly one --strategy"),
+        (&["--strategy", "equi-angular", "--strategy", "point-normal"], "--output takes exactly one --strategy"),
+    ] {
+        let told = fail(&[&["sample", "--output", text(&output)], arguments].concat());
+        assert!(told.contains(expected), "{told}");
+    }
+    assert!(names(folder.path()).is_empty());
+}
+
+#[test]
+fn a_reader_who_has_seen_enough_is_no_failure() {
+    let mut run = Command::new(env!("CARGO_BIN_EXE_airlight"))
+        .args(["sample", "--rays", "1000", "--check", "0"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(run.stdout.take());
+    let output = run.wait_with_output().unwrap();
+    let stderr = String::from_utf8(output.stderr).unwrap();
+    assert_eq!((output.status.code(), &*stderr), (Some(0), ""));
+}
