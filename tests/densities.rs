@@ -96,22 +96,21 @@ fn samples_invert_the_distribution() {
     assert!(percentile <= 2e-6, "the 99.9th percentile is {percentile:e}, seed {SEED}");
 }
 
+/// Variates from each `start` on, `step` apart, in order.
+fn runs(starts: &[f32], step: f32) -> Vec<f32> {
+    let mut u: Vec<f32> = starts.iter().flat_map(|u| (0..16).map(move |k| u + k as f32 * step)).collect();
+    u.retain(|&u| u <= 1.0);
+    u.sort_by(f32::total_cmp);
+    u
+}
+
 /// Strata stay strata. Variates that only their last digits tell apart may swap, by no more than the inverse is off.
 #[test]
 fn distances_do_not_fall_as_the_variate_grows() {
-    let steps = 1u32 << 14;
-    let mut wide: Vec<f32> = (0..=steps).map(|i| i as f32 / steps as f32).collect();
-    let least = 2f32.powi(-24);
-    wide.extend([least, 1.0 - least]);
-    let apart = 16.0 * least;
-    wide.extend(variates(16).into_iter().flat_map(|u| (0..16).map(move |k| u + k as f32 * apart)));
-    let mut narrow: Vec<f32> =
-        variates(64).into_iter().flat_map(|u| (0..16).map(move |k| u + k as f32 * least)).collect();
-    for u in [&mut wide, &mut narrow] {
-        u.retain(|&u| u <= 1.0);
-        u.sort_by(f32::total_cmp);
-    }
-    wide.dedup_by(|u, before| *u - *before < apart && *u != 1.0 && *before != 0.0);
+    let (stratum, apart, least) = (2f32.powi(-14), 2f32.powi(-20), 2f32.powi(-24));
+    let strata = (0..=1 << 14).map(|i| i as f32 * stratum);
+    let starts = strata.chain(variates(64).into_iter().map(|u| (u / apart).floor() * apart)).collect::<Vec<_>>();
+    let (wide, narrow) = (runs(&starts, apart), runs(&variates(64), least));
     for (case, strategy) in each() {
         let draw = |u: &[f32]| Columns::repeat(&case, u.to_vec()).sample(&Sampler::new(strategy)).t;
         let t = draw(&wide);

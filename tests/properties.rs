@@ -70,7 +70,7 @@ fn variate() -> impl Strategy<Value = f32> {
 }
 
 /// Whether a ray has a sample, by the oracle; `None` where f32 may see it either way: an interval that subtends some
-/// 1e-30 rad, is 1e-36 of `r^2` or has 1e-34 of the light, and one so dark that a rounding of `N` decides.
+/// 1e-30 rad, is 1e-36 of `r^2` or has 1e-25 of the light, and one so dark that a rounding of `N` decides.
 fn is_lit(case: &Case) -> Option<bool> {
     let scene = case.oracle();
     let Some((t_a, t_b)) = scene.lit() else {
@@ -80,8 +80,9 @@ fn is_lit(case: &Case) -> Option<bool> {
         return (t_min == t_max || brightest < -1e-15).then_some(false);
     };
     let (length, angle, r_squared) = (t_b - t_a, scene.angle(t_a, t_b), scene.r(t_a) * scene.r(t_b));
-    let light = angle * scene.cosine(t_a).max(scene.cosine(t_b));
-    (length > 1e-17 && angle > 1e-28 && length > 1e-35 * r_squared && light > 1e-15 * angle.min(1e-15)).then_some(true)
+    let n = scene.cosine(t_a).max(scene.cosine(t_b));
+    let bright = n > 1e-15 && angle * n > 1e-24;
+    (bright && length > 1e-17 && angle > 1e-28 && length > 1e-35 * r_squared).then_some(true)
 }
 
 /// Whether a density is less than f32 can hold as near to `t` as rounding moves it: far out, or where the light ends.
