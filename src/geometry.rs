@@ -6,7 +6,7 @@
 
 use crate::scene::{FARTHEST, UNIT_TOLERANCE};
 use crate::simd::math::angle_of;
-use crate::simd::{Double, Isa, Lanes};
+use crate::simd::{Double, Isa, Lanes, Number};
 
 /// The rays of a lane group.
 pub(crate) struct RayLanes<I: Isa> {

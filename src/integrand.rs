@@ -2,7 +2,7 @@
 
 use crate::geometry::{Geometry, Point};
 use crate::simd::math::exp;
-use crate::simd::{Isa, Lanes};
+use crate::simd::{Isa, Lanes, Number};
 
 /// The media of a lane group.
 #[derive(Clone, Copy)]

@@ -2,7 +2,7 @@
 //!
 //! The polynomials are minimax fits of our own (Remez exchange); the stated errors are checked by the tests below.
 
-use super::{Double, Isa, Lanes};
+use super::{Double, Isa, Lanes, Number};
 
 /// The polynomial with coefficients `c`, highest degree first.
 #[inline(always)]
@@ -16,9 +16,21 @@ pub(crate) fn horner<I: Isa, const K: usize>(isa: I, x: I::V, c: [f32; K]) -> I:
     p
 }
 
+/// The same in double precision.
+#[inline(always)]
+pub(crate) fn horner_double<I: Isa, const K: usize>(isa: I, x: I::Double, c: [f64; K]) -> I::Double {
+    let mut p = isa.splat_double(c[0]);
+    let mut k = 1;
+    while k < K {
+        p = p.mul_add(x, isa.splat_double(c[k]));
+        k += 1;
+    }
+    p
+}
+
 /// The polynomial with the given coefficients in each lane, from degree 0 on.
 #[inline(always)]
-pub(crate) fn horner_lanes<V: Lanes, const K: usize>(x: V, c: [V; K]) -> V {
+pub(crate) fn horner_lanes<V: Number, const K: usize>(x: V, c: [V; K]) -> V {
     let mut p = c[K - 1];
     let mut k = K - 1;
     while k > 0 {

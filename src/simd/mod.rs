@@ -9,13 +9,19 @@ pub(crate) use portable::Portable;
 
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
+/// A group of lanes that can be added and multiplied.
+pub(crate) trait Number:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
+{
+    /// `self * m + a`; one rounding where the set has FMA, else two.
+    fn mul_add(self, m: Self, a: Self) -> Self;
+}
+
 /// A group of `f32` lanes, one ray each.
 ///
 /// Every method is `#[inline(always)]`, so that it takes on the target features of the function it ends up in. No
 /// method moves a value from one lane to another: what a lane computes depends on that lane alone.
-pub(crate) trait Lanes:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
-{
+pub(crate) trait Lanes: Number + Div<Output = Self> {
     /// One truth value per lane.
     type Mask: Copy + BitAnd<Output = Self::Mask> + BitOr<Output = Self::Mask> + Not<Output = Self::Mask>;
     /// The same number of lanes in double precision.
@@ -23,8 +29,6 @@ pub(crate) trait Lanes:
     /// How many lanes.
     const N: usize;
 
-    /// `self * m + a`; one rounding where the set has FMA, else two.
-    fn mul_add(self, m: Self, a: Self) -> Self;
     fn sqrt(self) -> Self;
     fn abs(self) -> Self;
     /// The smaller one; either where a lane is NaN.
@@ -50,11 +54,7 @@ pub(crate) trait Lanes:
 }
 
 /// The double-precision companion of a lane group: geometry is computed in it and rounded once.
-pub(crate) trait Double:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
-{
-    /// `self * m + a`; one rounding where the set has FMA, else two.
-    fn mul_add(self, m: Self, a: Self) -> Self;
+pub(crate) trait Double: Number {
     fn max(self, o: Self) -> Self;
 }
 

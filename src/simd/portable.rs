@@ -1,6 +1,6 @@
 //! `wide::f32x8`: the instruction set is whatever the build enables. The reading copy of the trait.
 
-use super::{Double, Isa, Lanes};
+use super::{Double, Isa, Lanes, Number};
 use core::ops::{Add, Mul, Neg, Sub};
 use wide::bytemuck::cast;
 use wide::{f32x8, f64x4, i32x8};
@@ -33,15 +33,18 @@ impl Isa for Portable {
     }
 }
 
+impl Number for f32x8 {
+    #[inline(always)]
+    fn mul_add(self, m: Self, a: Self) -> Self {
+        f32x8::mul_add(self, m, a)
+    }
+}
+
 impl Lanes for f32x8 {
     type Mask = f32x8;
     type Double = F64x8;
     const N: usize = 8;
 
-    #[inline(always)]
-    fn mul_add(self, m: Self, a: Self) -> Self {
-        f32x8::mul_add(self, m, a)
-    }
     #[inline(always)]
     fn sqrt(self) -> Self {
         f32x8::sqrt(self)
@@ -133,11 +136,14 @@ impl Neg for F64x8 {
     }
 }
 
-impl Double for F64x8 {
+impl Number for F64x8 {
     #[inline(always)]
     fn mul_add(self, m: Self, a: Self) -> Self {
         Self(self.0.mul_add(m.0, a.0), self.1.mul_add(m.1, a.1))
     }
+}
+
+impl Double for F64x8 {
     #[inline(always)]
     fn max(self, o: Self) -> Self {
         Self(self.0.fast_max(o.0), self.1.fast_max(o.1))

@@ -7,7 +7,7 @@ use crate::density::{Density, Drawn, Pdf, none};
 use crate::geometry::{Geometry, Point};
 use crate::integrand::MediumLanes;
 use crate::simd::math::tan;
-use crate::simd::{Isa, Lanes};
+use crate::simd::{Isa, Lanes, Number};
 
 pub(crate) struct PointNormal<I: Isa> {
     /// `S` at the ends, counted towards the interval.

@@ -16,7 +16,7 @@ use crate::geometry::{Geometry, Point};
 use crate::integrand::MediumLanes;
 use crate::inversion::solve;
 use crate::simd::math::{COS, SIN, angle_of, horner_lanes, sin_cos, tan};
-use crate::simd::{Isa, Lanes};
+use crate::simd::{Isa, Lanes, Number};
 use core::marker::PhantomData;
 
 /// The order of the expansions.
@@ -29,7 +29,7 @@ const PRODUCT_ORDER: usize = ORDER + COSINE_ORDER;
 /// A Taylor polynomial of one factor of the integrand.
 pub(crate) trait Expansion<I: Isa> {
     /// Coefficients from degree 0 on, up to a common factor.
-    fn coefficients(isa: I, geometry: &Geometry<I>, medium: &MediumLanes<I>) -> [I::V; ORDER + 1];
+    fn coefficients(isa: I, geometry: &Geometry<I>, medium: &MediumLanes<I>) -> [I::Double; ORDER + 1];
     /// The angle up to which the polynomial is trusted \[rad\].
     fn trusted(isa: I, geometry: &Geometry<I>, medium: &MediumLanes<I>) -> I::V;
     /// Which lanes expand in `-theta`.
@@ -37,8 +37,8 @@ pub(crate) trait Expansion<I: Isa> {
 }
 
 pub(crate) struct Taylor<I: Isa, E> {
-    /// `P` in the angle `theta`, mirrored where the lane is.
-    p: [I::V; ORDER + 1],
+    /// `P` in the angle `theta`, mirrored where the lane is; its terms cancel near `theta_c`.
+    p: [I::Double; ORDER + 1],
     theta_c: I::V,
     mirrored: I::Mask,
     /// `theta` at the start, and the angle to the end.
@@ -102,13 +102,13 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
         let slope_m = I::V::select(g.has_normal, slope_m, c(0.0));
         let wave = I::V::select(g.has_normal, half, c(0.0));
 
-        let product = multiply(isa, shift(p, middle, half), cosine_series(isa, n_m, slope_m, wave));
+        let product = multiply(isa, shift(p.map(I::V::narrow), middle, half), cosine_series(isa, n_m, slope_m, wave));
         let integral = integrate(isa, &product);
         let below = horner_lanes(-one, integral) * -one;
         let above = horner_lanes(one, integral);
         let mass_1 = (above - below) * half;
 
-        let p_c = horner_lanes((middle + half).min(theta_c), p);
+        let p_c = I::V::narrow(horner_lanes((middle + half).min(theta_c).widen(), p));
         let rest = subtended - width;
         let whole = width.eq(c(0.0));
         let n_c = I::V::select(whole, n_a, n_c.max(c(0.0)));
@@ -154,9 +154,9 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
         let value = target / self.half.max(c(1e-37)) + self.below;
         let scale = self.mass_1 / self.half.max(c(1e-37));
         let f = |x: I::V| (x.mul_add(horner_lanes(x, integral), -value), horner_lanes(x, self.product));
-        let start = (u + u) * (total / self.mass_1) - c(1.0);
+        let start = self.first_guess(isa, target / self.mass_1);
         let wanted = first & g.lit & g.valid;
-        let root = solve(isa, f, [c(-1.0), c(1.0)], start.min(c(1.0)), scale * c(1.2e-7), wanted);
+        let root = solve(isa, f, [c(-1.0), c(1.0)], start, scale * c(1.2e-7), wanted);
         // Off the very ends, where N may be 0.
         let off = self.subtended * c(6e-8);
         let delta = self.half.mul_add(root.x, self.half).max(off);
@@ -192,10 +192,26 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
 }
 
 impl<I: Isa, E> Taylor<I, E> {
+    /// Where the CDF of the first piece is about `share`: the inverse for a density linear between -1, 0 and 1.
+    #[inline(always)]
+    fn first_guess(&self, isa: I, share: I::V) -> I::V {
+        let c = |x| isa.splat(x);
+        let [f_a, f_b] = [c(-1.0), c(1.0)].map(|x| horner_lanes(x, self.product).max(c(0.0)));
+        let f_m = self.product[0];
+        let twice_below = f_a + f_m;
+        let twice = share * (twice_below + f_m + f_b);
+        let above = twice_below.lt(twice);
+        let (f_0, f_1) = (I::V::select(above, f_m, f_a), I::V::select(above, f_b, f_m));
+        let twice = I::V::select(above, twice - twice_below, twice);
+        let root = f_0.mul_add(f_0, (f_1 - f_0) * twice).max(c(0.0)).sqrt();
+        let x = twice / (f_0 + root).max(c(1e-37));
+        I::V::select(above, x, x - c(1.0)).max(c(-1.0)).min(c(1.0))
+    }
+
     /// The density at a point whose (mirrored) angle is `theta`.
     #[inline(always)]
     fn at(&self, isa: I, geometry: &Geometry<I>, point: &Point<I>, theta: I::V) -> Pdf<I> {
-        let p = horner_lanes(theta.min(self.theta_c), self.p);
+        let p = I::V::narrow(horner_lanes(theta.min(self.theta_c).widen(), self.p));
         let p_theta = p * geometry.cosine(isa, point) / (self.mass_1 + self.mass_2);
         Pdf::over_angle(p_theta, geometry.h, point.r)
     }

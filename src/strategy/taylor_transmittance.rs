@@ -4,7 +4,7 @@ use super::taylor::{Expansion, ORDER};
 use crate::density::none;
 use crate::geometry::Geometry;
 use crate::integrand::MediumLanes;
-use crate::simd::math::{exp, horner};
+use crate::simd::math::{exp, horner_double};
 use crate::simd::{Isa, Lanes};
 
 pub(crate) struct OfTransmittance;
@@ -20,17 +20,17 @@ fn m<I: Isa>(isa: I, geometry: &Geometry<I>, medium: &MediumLanes<I>) -> I::V {
 
 impl<I: Isa> Expansion<I> for OfTransmittance {
     #[inline(always)]
-    fn coefficients(isa: I, geometry: &Geometry<I>, medium: &MediumLanes<I>) -> [I::V; ORDER + 1] {
-        let c = |x| isa.splat(x);
-        let m = m(isa, geometry, medium);
+    fn coefficients(isa: I, geometry: &Geometry<I>, medium: &MediumLanes<I>) -> [I::Double; ORDER + 1] {
+        let m = m(isa, geometry, medium).widen();
+        let over = |factorial: f64| isa.splat_double(1.0 / factorial);
         [
-            c(1.0),
+            over(1.0),
             -m,
-            m * horner(isa, m, [1.0, -1.0]) * c(1.0 / 2.0),
-            m * horner(isa, m, [-1.0, 3.0, -2.0]) * c(1.0 / 6.0),
-            m * horner(isa, m, [1.0, -6.0, 11.0, -5.0]) * c(1.0 / 24.0),
-            m * horner(isa, m, [-1.0, 10.0, -35.0, 45.0, -16.0]) * c(1.0 / 120.0),
-            m * horner(isa, m, [1.0, -15.0, 85.0, -210.0, 211.0, -61.0]) * c(1.0 / 720.0),
+            m * horner_double(isa, m, [1.0, -1.0]) * over(2.0),
+            m * horner_double(isa, m, [-1.0, 3.0, -2.0]) * over(6.0),
+            m * horner_double(isa, m, [1.0, -6.0, 11.0, -5.0]) * over(24.0),
+            m * horner_double(isa, m, [-1.0, 10.0, -35.0, 45.0, -16.0]) * over(120.0),
+            m * horner_double(isa, m, [1.0, -15.0, 85.0, -210.0, 211.0, -61.0]) * over(720.0),
         ]
     }
 

@@ -4,7 +4,7 @@ use crate::density::{Density, Drawn, Pdf, none};
 use crate::geometry::{Geometry, Point};
 use crate::integrand::MediumLanes;
 use crate::simd::math::{exp, neg_ln_1m, one_minus_exp};
-use crate::simd::{Isa, Lanes};
+use crate::simd::{Isa, Lanes, Number};
 
 pub(crate) struct Transmittance<I: Isa> {
     mu_t: I::V,
