@@ -45,6 +45,8 @@ pub(crate) struct Point<I: Isa> {
     pub(crate) t: I::V,
     /// `t - t_h` \[m\], exact to a few ulp also where `t` cannot resolve it.
     pub(crate) t_prime: I::V,
+    /// The same where it is known better, as at a given `t`.
+    exact_t_prime: I::Double,
     /// Distance to the emitter \[m\].
     pub(crate) r: I::V,
     /// `n.(x - y) = N r` \[m\], whatever it is without a normal; not negative where the point is lit.
@@ -68,6 +70,7 @@ pub(crate) struct Geometry<I: Isa> {
     /// Ends of the ray itself \[m\].
     pub(crate) t_min: I::V,
     pub(crate) t_max: I::V,
+    h_squared: I::Double,
     t_h: I::Double,
     t_prime_min: I::Double,
     /// `n.(x - y) = alpha_h + beta_exact t'`.
@@ -106,9 +109,10 @@ impl<I: Isa> Geometry<I> {
         let t_prime_min = ray.t_min.widen() - t_h;
         let t_prime_max = t_max.widen() - t_h;
         let [ta, tb] = [t_prime_min, t_prime_max].map(I::V::narrow);
-        let h_squared = I::V::narrow(dot(foot, foot));
         let scale = ta.abs().max(I::V::narrow(t_h).abs());
-        let h = h_squared.sqrt().max((scale * c(1e-9)).max(c(1e-18)));
+        let least = (scale * c(1e-9)).max(c(1e-18)).widen();
+        let h_squared = dot(foot, foot).max(least * least);
+        let h = I::V::narrow(h_squared).sqrt();
         let length = t_max - ray.t_min;
 
         // The sign of m = n.(x - y) at the ends decides what is lit.
@@ -175,6 +179,7 @@ impl<I: Isa> Geometry<I> {
             length,
             t_min: ray.t_min,
             t_max,
+            h_squared,
             t_h,
             t_prime_min,
             alpha_h,
@@ -226,7 +231,8 @@ impl<I: Isa> Geometry<I> {
         let rising = c(0.0).le(self.beta);
         let m_end = I::V::select(rising, self.a.n * self.a.r, self.b.n * self.b.r);
         let m = self.beta.abs().mul_add(I::V::select(rising, from_start, to_end), m_end);
-        Point { t: self.distance(isa, t_prime, from_start, to_end), t_prime, r: self.r(t_prime), m }
+        let t = self.distance(isa, t_prime, from_start, to_end);
+        Point { t, t_prime, exact_t_prime: t_prime.widen(), r: self.r(t_prime), m }
     }
 
     /// The point of the ray at the given distance, which may lie outside the lit interval.
@@ -242,10 +248,10 @@ impl<I: Isa> Geometry<I> {
     }
 
     #[inline(always)]
-    fn point(&self, isa: I, t: I::V, t_prime: I::Double) -> Point<I> {
-        let m = I::V::narrow(self.beta_exact.mul_add(t_prime, self.alpha_h));
-        let t_prime = I::V::narrow(t_prime);
-        Point { t, t_prime, r: self.r(t_prime), m: m.max(isa.splat(0.0)) }
+    fn point(&self, isa: I, t: I::V, exact_t_prime: I::Double) -> Point<I> {
+        let m = I::V::narrow(self.beta_exact.mul_add(exact_t_prime, self.alpha_h));
+        let t_prime = I::V::narrow(exact_t_prime);
+        Point { t, t_prime, exact_t_prime, r: self.r(t_prime), m: m.max(isa.splat(0.0)) }
     }
 
     /// What is left of the interval beyond `offset` from one end: by the length, or by `t'` where that is smaller.
@@ -280,9 +286,14 @@ impl<I: Isa> Geometry<I> {
     }
 
     /// The length of the path from `t_min` over the point to the emitter \[m\].
+    ///
+    /// The exponential multiplies an error of the optical depth by the depth, so r takes a Newton step of its root.
     #[inline(always)]
-    pub(crate) fn path(&self, point: &Point<I>) -> I::Double {
-        (point.t_prime.widen() - self.t_prime_min) + point.r.widen()
+    pub(crate) fn path(&self, isa: I, point: &Point<I>) -> I::Double {
+        let (t_prime, r) = (point.exact_t_prime, point.r.widen());
+        let residual = I::V::narrow(t_prime.mul_add(t_prime, self.h_squared) - r * r);
+        let step = residual * isa.splat(0.5) / point.r;
+        (t_prime - self.t_prime_min) + (r + step.widen())
     }
 }
 

@@ -25,7 +25,7 @@ impl<I: Isa> MediumLanes<I> {
 /// `mu_s T rho N` \[1/m\]: the integrand times `r^2`.
 #[inline(always)]
 pub(crate) fn integrand_r2<I: Isa>(isa: I, g: &Geometry<I>, medium: &MediumLanes<I>, point: &Point<I>) -> I::V {
-    let depth = medium.mu_t.widen() * g.path(point);
+    let depth = medium.mu_t.widen() * g.path(isa, point);
     let transmittance = exp(isa, -depth);
     (medium.mu_s * transmittance) * (phase(isa, g, medium.g, point) * g.cosine(isa, point))
 }

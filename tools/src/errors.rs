@@ -1,0 +1,256 @@
+//! Kernels in f32 against the oracle in f64: how far off they are, for one strategy on one family.
+
+use crate::families::{Case, Columns, Family};
+use airlight::oracle::Scene;
+use airlight::{Sampler, Samples, Strategy};
+use rayon::prelude::*;
+
+/// Rays that are sampled in one call.
+const BATCH: usize = 1 << 14;
+/// Every how many rays the weight is compared, which takes the oracle's inverse.
+const WEIGHED: usize = 16;
+/// Below this share of its mean over the angle a density counts as vanishing, and so does N below this value: there
+/// errors are relative to the share of the mean, or to this N.
+const VANISHING: f64 = 1e-3;
+/// The change of `u` that the weight's error allows for.
+const VARIATE: f64 = 1.0 / (1 << 21) as f64;
+/// Optical depth up to which the integrand and the weight are compared.
+const DEPTH: f64 = 30.0;
+/// Values below this are too near to the end of f32's range to be compared.
+const TINY: f64 = 1e-30;
+
+/// The errors of one strategy on one family; the lists ascend.
+#[derive(Clone, Debug, Default)]
+pub struct Errors {
+    /// Rays in all.
+    pub rays: usize,
+    /// Rays with a sample.
+    pub sampled: usize,
+    /// `|CDF(t) - u|`.
+    pub cdf: Vec<f64>,
+    /// The distance of `u` from the CDF of what rounds to `t`, one ulp either way.
+    pub cdf_beyond_t: Vec<f64>,
+    /// The pdf at the returned `t`, relative.
+    pub pdf: Vec<f64>,
+    /// The distance `r` beyond what one ulp of `t` changes it, in ulp.
+    pub r: Vec<f64>,
+    /// The integrand at the returned `t`, in ulp.
+    pub integrand: Vec<f64>,
+    /// The weight against that of the exact inverse, relative, beyond what 2^-21 of `u` change it.
+    pub weight: Vec<f64>,
+    /// Rays for which something is NaN or infinite.
+    pub nonfinite: usize,
+    /// Rays with a distance outside `[t_min, t_max]`, or something negative.
+    pub out_of_range: usize,
+    /// Rays that were sampled and have nothing to sample, or the reverse.
+    pub misjudged: usize,
+    /// Rays that fell back to bisection.
+    pub bisected: usize,
+    /// The case of the largest error of each list, in their order.
+    pub worst: [Option<(f64, Case)>; 6],
+}
+
+impl Errors {
+    /// Measures `rays` cases of a family; `step` is told how many more are done.
+    #[must_use]
+    pub fn measure(strategy: Strategy, family: Family, rays: usize, seed: u64, step: impl Fn(usize)) -> Self {
+        let mut errors = Self::default();
+        let sampler = Sampler::new(strategy);
+        for first in (0..rays).step_by(BATCH) {
+            let count = BATCH.min(rays - first);
+            let cases: Vec<Case> =
+                (first..first + count).into_par_iter().map(|i| family.case(seed, i as u64)).collect();
+            errors.add(&sampler, &cases);
+            step(count);
+        }
+        for list in errors.lists_mut() {
+            list.par_sort_unstable_by(f64::total_cmp);
+        }
+        errors
+    }
+
+    fn lists_mut(&mut self) -> [&mut Vec<f64>; 6] {
+        let Self { cdf, cdf_beyond_t, pdf, r, integrand, weight, .. } = self;
+        [cdf, cdf_beyond_t, pdf, r, integrand, weight]
+    }
+
+    fn add(&mut self, sampler: &Sampler, cases: &[Case]) {
+        let outcomes = Outcomes::new(sampler, cases);
+        self.bisected += outcomes.bisected;
+        let rows: Vec<Row> = cases
+            .par_iter()
+            .enumerate()
+            .map(|(i, case)| Row::new(sampler.strategy(), case, &outcomes.get(i), i % WEIGHED == 0))
+            .collect();
+        for (row, case) in rows.iter().zip(cases) {
+            self.rays += 1;
+            self.sampled += usize::from(row.sampled);
+            self.nonfinite += usize::from(row.nonfinite);
+            self.out_of_range += usize::from(row.out_of_range);
+            self.misjudged += usize::from(row.misjudged);
+            for (list, error) in self.lists_mut().into_iter().zip(row.errors) {
+                list.extend(error);
+            }
+            for (worst, error) in self.worst.iter_mut().zip(row.errors) {
+                if let Some(error) = error
+                    && worst.is_none_or(|(so_far, _)| error > so_far)
+                {
+                    *worst = Some((error, *case));
+                }
+            }
+        }
+    }
+}
+
+/// What the kernels made of some cases.
+struct Outcomes {
+    t: Vec<f32>,
+    pdf: Vec<f32>,
+    weight: Vec<f32>,
+    r: Vec<f32>,
+    /// `Sampler::pdf` and `Sampler::evaluate` at `t`.
+    pdf_at_t: Vec<f32>,
+    integrand: Vec<f32>,
+    bisected: usize,
+}
+
+/// And of one.
+struct Outcome {
+    t: f32,
+    pdf: f32,
+    weight: f32,
+    r: f32,
+    pdf_at_t: f32,
+    integrand: f32,
+}
+
+impl Outcomes {
+    fn new(sampler: &Sampler, cases: &[Case]) -> Self {
+        const EQUAL: &str = "all columns have one length";
+        let columns = Columns::new(cases);
+        let (rays, emitters, media) = (columns.rays(), columns.emitters(), columns.media());
+        let [mut t, mut pdf, mut weight, mut r, mut pdf_at_t, mut integrand] =
+            [(); 6].map(|()| vec![f32::NAN; cases.len()]);
+        let mut samples = Samples { t: &mut t, pdf: &mut pdf, weight: Some(&mut weight), r: Some(&mut r) };
+        let counts = sampler.sample(&rays, &emitters, &media, &columns.u, &mut samples).expect(EQUAL);
+        sampler.pdf(&rays, &emitters, &media, &t, &mut pdf_at_t).expect(EQUAL);
+        sampler.evaluate(&rays, &emitters, &media, &t, &mut integrand).expect(EQUAL);
+        Self { t, pdf, weight, r, pdf_at_t, integrand, bisected: counts.bisected }
+    }
+
+    fn get(&self, i: usize) -> Outcome {
+        Outcome {
+            t: self.t[i],
+            pdf: self.pdf[i],
+            weight: self.weight[i],
+            r: self.r[i],
+            pdf_at_t: self.pdf_at_t[i],
+            integrand: self.integrand[i],
+        }
+    }
+}
+
+/// The errors of one ray.
+struct Row {
+    sampled: bool,
+    nonfinite: bool,
+    out_of_range: bool,
+    misjudged: bool,
+    /// In the order of the lists of [`Errors`].
+    errors: [Option<f64>; 6],
+}
+
+impl Row {
+    fn new(strategy: Strategy, case: &Case, outcome: &Outcome, weigh: bool) -> Self {
+        let Outcome { t, pdf, weight, r, pdf_at_t, integrand } = *outcome;
+        let all = [t, pdf, weight, r, pdf_at_t, integrand];
+        let scene = case.scene().ok().filter(|_| (0.0..=1.0).contains(&case.u));
+        let lit = scene.as_ref().and_then(Scene::lit);
+        let sampled = pdf > 0.0;
+        let mut row = Self {
+            sampled,
+            nonfinite: all.iter().any(|x| !x.is_finite()),
+            out_of_range: all.iter().any(|&x| x < 0.0),
+            misjudged: sampled != lit.is_some() && !scene.as_ref().is_some_and(beyond_f32) && !case.is_extreme(),
+            errors: [None; 6],
+        };
+        let (Some(scene), Some(lit), true, false) = (scene, lit, sampled, case.is_extreme()) else { return row };
+        let (t_min, t_max) = scene.interval();
+        row.out_of_range |= !(t_min..=t_max).contains(&f64::from(t));
+        row.errors = [
+            Some((scene.cdf(strategy, t.into()) - f64::from(case.u)).abs()),
+            Some(cdf_beyond_t(&scene, strategy, t, case.u.into())),
+            pdf_error(&scene, strategy, lit, t.into(), pdf_at_t.into()),
+            Some(r_error(&scene, t, r.into())),
+            integrand_error(&scene, t.into(), integrand.into()),
+            weigh.then(|| weight_error(&scene, strategy, case.u.into(), weight.into())).flatten(),
+        ];
+        row
+    }
+}
+
+fn cdf_beyond_t(scene: &Scene, strategy: Strategy, t: f32, u: f64) -> f64 {
+    let [low, high] = [t.next_down(), t.next_up()].map(|t| scene.cdf(strategy, t.into()));
+    (low - u).max(u - high).max(0.0)
+}
+
+fn pdf_error(scene: &Scene, strategy: Strategy, (t_a, t_b): (f64, f64), t: f64, pdf: f64) -> Option<f64> {
+    let exact = scene.pdf(strategy, t);
+    if strategy == Strategy::Transmittance {
+        return Some((pdf - exact).abs() / exact);
+    }
+    // Outside for rounding alone.
+    let mean = (t_a..=t_b).contains(&t).then(|| scene.pdf(Strategy::EquiAngular, t))?;
+    Some((pdf - exact).abs() / exact.max(VANISHING * mean))
+}
+
+fn r_error(scene: &Scene, t: f32, r: f64) -> f64 {
+    let t_prime = (f64::from(t) - scene.t_h()).abs();
+    let ulp_of_t = f64::from(t.next_up()) - f64::from(t);
+    let [nearest, farthest] = [(t_prime - ulp_of_t).max(0.0), t_prime + ulp_of_t].map(|x| scene.h().hypot(x));
+    (nearest - r).max(r - farthest).max(0.0) / ulp(scene.r(t.into()))
+}
+
+fn integrand_error(scene: &Scene, t: f64, integrand: f64) -> Option<f64> {
+    let exact = scene.integrand(t);
+    let size = exact * (VANISHING / scene.cosine(t)).max(1.0);
+    (depth(scene, t) < DEPTH && exact > TINY).then(|| (integrand - exact).abs() / ulp(size))
+}
+
+fn weight_error(scene: &Scene, strategy: Strategy, u: f64, weight: f64) -> Option<f64> {
+    let exact = |u: f64| {
+        let t = scene.invert(strategy, u.clamp(0.0, 1.0));
+        (t, scene.integrand(t) / scene.pdf(strategy, t))
+    };
+    let (t, w) = exact(u);
+    let comparable = depth(scene, t) < DEPTH && w > TINY && scene.cosine(t) > VANISHING;
+    let [(_, before), (_, after)] = [exact(u - VARIATE), exact(u + VARIATE)];
+    let [low, high] = [w.min(before).min(after), w.max(before).max(after)];
+    comparable.then(|| (low - weight).max(weight - high).max(0.0) / w)
+}
+
+fn depth(scene: &Scene, t: f64) -> f64 {
+    scene.mu_t() * (t - scene.interval().0 + scene.r(t))
+}
+
+/// Whether the lit interval is so short that it may as well count as empty, as [`airlight::Counts::empty`] says.
+fn beyond_f32(scene: &Scene) -> bool {
+    scene.lit().is_none_or(|(a, b)| {
+        let angle = scene.angle(a, b);
+        let light = angle * (scene.cosine(a) + scene.cosine(b));
+        b - a < 1.01e-18 || angle < 1.01e-30 || b - a < 1.01e-36 * scene.r(a) * scene.r(b) || light < 1.01e-25
+    })
+}
+
+/// The distance from `x > 0` to the next larger f32.
+fn ulp(x: f64) -> f64 {
+    let x = (x as f32).max(f32::MIN_POSITIVE);
+    f64::from(x.next_up()) - f64::from(x)
+}
+
+/// The value that a share `p` of an ascending list does not exceed; NaN for an empty one.
+#[must_use]
+pub fn quantile(ascending: &[f64], p: f64) -> f64 {
+    let last = ascending.len().saturating_sub(1);
+    ascending.get((p * last as f64).ceil() as usize).copied().unwrap_or(f64::NAN)
+}

@@ -1,0 +1,420 @@
+//! Families of inputs that are known to break renderers, and a generic one.
+
+use airlight::oracle::Scene;
+use airlight::{Emitter, Emitters, Error, FARTHEST, Media, Medium, Ray, Rays};
+use glam::{DVec3, Vec3};
+use std::f32::consts::PI;
+
+/// A family of rays, named for what is hard about them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Family {
+    /// Rays in a box of side 10 around the emitter, any normal, `mu_t = 0.7`, `g` 0 or 0.9.
+    Generic,
+    /// The same with `u` at and next to 0 and 1.
+    Variate,
+    /// The emitter on the ray or next to it, also at its ends.
+    NearEmitter,
+    /// The emitter 100 to 1e6 m away from a segment of 1 to 10 m.
+    FarAway,
+    /// `t_max` from 1e4 m to infinity.
+    InfiniteRays,
+    /// Subtended angles from 1e-9 rad, single-ulp and empty intervals.
+    ShortIntervals,
+    /// Normals along and across the ray, ends at and next to the dark side, emitters that show their back.
+    Cosine,
+    /// `g` from -1 to 1, ends included.
+    Phase,
+    /// `mu_t` from 0 to 1e4 per m, and media that are none.
+    Medium,
+    /// Directions that are not quite units, signed zeros, origins far out, fields that are not numbers.
+    Ray,
+    /// Every field an arbitrary bit pattern.
+    RandomBits,
+}
+
+impl Family {
+    /// All of them.
+    pub const ALL: [Self; 11] = [
+        Self::Generic,
+        Self::Variate,
+        Self::NearEmitter,
+        Self::FarAway,
+        Self::InfiniteRays,
+        Self::ShortIntervals,
+        Self::Cosine,
+        Self::Phase,
+        Self::Medium,
+        Self::Ray,
+        Self::RandomBits,
+    ];
+
+    /// Its name on the command line and in JSON.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Generic => "generic",
+            Self::Variate => "variate",
+            Self::NearEmitter => "near-emitter",
+            Self::FarAway => "far-away",
+            Self::InfiniteRays => "infinite-rays",
+            Self::ShortIntervals => "short-intervals",
+            Self::Cosine => "cosine",
+            Self::Phase => "phase",
+            Self::Medium => "medium",
+            Self::Ray => "ray",
+            Self::RandomBits => "random-bits",
+        }
+    }
+
+    /// Case number `index` of the family under a seed.
+    #[must_use]
+    pub fn case(self, seed: u64, index: u64) -> Case {
+        let mut draw = Draw::new(seed, self as u64, index);
+        match self {
+            Self::Generic => Case::generic(&mut draw),
+            Self::Variate => Case { u: draw.pick(&[0.0, EPS, 1.0 - EPS, 1.0, 1e-30]), ..Case::generic(&mut draw) },
+            Self::NearEmitter => Case::near_emitter(&mut draw),
+            Self::FarAway => Case::far_away(&mut draw),
+            Self::InfiniteRays => Case::infinite(&mut draw),
+            Self::ShortIntervals => Case::short(&mut draw),
+            Self::Cosine => Case::cosine(&mut draw),
+            Self::Phase => {
+                let g = draw.pick(&[0.0, 1e-8, -1e-8, 0.6, -0.6, 0.9, -0.9, 0.99, -0.99, 0.999, -0.999, 1.0, -1.0]);
+                Case { g, ..Case::generic(&mut draw) }
+            }
+            Self::Medium => Case::medium(&mut draw),
+            Self::Ray => Case::ray(&mut draw),
+            Self::RandomBits => Case::random_bits(&mut draw),
+        }
+    }
+}
+
+/// 2^-24.
+const EPS: f32 = f32::EPSILON / 2.0;
+
+/// One ray with its emitter, medium and variate, as raw as columns are.
+#[derive(Clone, Copy, Debug)]
+pub struct Case {
+    origin: Vec3,
+    direction: Vec3,
+    t_min: f32,
+    t_max: f32,
+    position: Vec3,
+    /// (0, 0, 0) for a point emitter.
+    normal: Vec3,
+    mu_a: f32,
+    mu_s: f32,
+    g: f32,
+    /// The variate.
+    pub u: f32,
+}
+
+impl Case {
+    /// The scene of the oracle, if the case is a valid one.
+    ///
+    /// # Errors
+    /// Whatever the constructors find.
+    pub fn scene(&self) -> Result<Scene, Error> {
+        let ray = Ray::new(self.origin, self.direction, self.t_min, self.t_max)?;
+        let emitter = if self.normal == Vec3::ZERO {
+            Emitter::point(self.position)?
+        } else {
+            Emitter::point_normal(self.position, self.normal)?
+        };
+        Ok(Scene::new(&ray, &emitter, &Medium::new(self.mu_a, self.mu_s, self.g)?))
+    }
+
+    /// Whether a coordinate is beyond what is promised to be told from invalid, or `mu_s` is denormal.
+    #[must_use]
+    pub fn is_extreme(&self) -> bool {
+        let farthest = self.origin.abs().max_element().max(self.position.abs().max_element());
+        farthest > FARTHEST || self.mu_s.is_subnormal()
+    }
+
+    fn generic(draw: &mut Draw) -> Self {
+        let normal = if draw.below(8) == 0 { Vec3::ZERO } else { draw.direction() };
+        Self {
+            origin: Vec3::from_array([0; 3].map(|_| draw.between(-5.0, 5.0))),
+            direction: draw.direction(),
+            t_min: 0.0,
+            t_max: draw.between(1.0, 20.0),
+            position: Vec3::ZERO,
+            normal,
+            mu_a: 0.5,
+            mu_s: 0.2,
+            g: draw.pick(&[0.0, 0.9]),
+            u: draw.uniform(),
+        }
+    }
+
+    /// A generic medium and variate.
+    fn any(draw: &mut Draw) -> Self {
+        let mu_t = draw.log_between(1e-2, 1e1);
+        let mu_s = mu_t * draw.uniform();
+        Self { mu_a: mu_t - mu_s, mu_s, g: draw.between(-0.95, 0.95), ..Self::generic(draw) }
+    }
+
+    /// The emitter at distance `h` from the ray's line and `t_h` along it: exactly so along an axis, else rounded.
+    fn placed(self, draw: &mut Draw, h: f32, t_h: f32) -> Self {
+        if draw.below(2) == 0 {
+            let axis = draw.below(3) as usize;
+            let unit = |k: usize| Vec3::AXES[k % 3];
+            let sign = draw.pick(&[1.0, -1.0]);
+            let direction = unit(axis) * sign;
+            Self { origin: unit(axis + 1) * h - direction * t_h, direction, position: Vec3::ZERO, ..self }
+        } else {
+            let direction = draw.direction();
+            let across = direction.as_dvec3().cross(draw.direction().as_dvec3()).normalize_or(DVec3::X);
+            let to = direction.as_dvec3() * f64::from(t_h) + across * f64::from(h);
+            let origin = if draw.below(2) == 0 { Vec3::ZERO } else { draw.direction() * draw.between(0.0, 3.0) };
+            Self { origin, direction, position: (origin.as_dvec3() + to).as_vec3(), ..self }
+        }
+    }
+
+    fn near_emitter(draw: &mut Draw) -> Self {
+        let length = draw.log_between(0.1, 100.0);
+        let t_min = draw.pick(&[0.0, 0.0, 1.0]) * length;
+        let t_max = t_min + length;
+        let h = match draw.below(8) {
+            0 => 0.0,
+            1 => 1e-40,
+            _ => length * draw.log_between(1e-7, 0.1),
+        };
+        let t_h = match draw.below(6) {
+            0 => t_min,
+            1 => t_max,
+            2 => t_min + length * draw.between(-0.5, 1.5),
+            _ => t_min + length * draw.uniform(),
+        };
+        Self { t_min, t_max, ..Self::any(draw) }.placed(draw, h, t_h)
+    }
+
+    fn far_away(draw: &mut Draw) -> Self {
+        let away = draw.log_between(1e2, 1e6) * draw.pick(&[1.0, -1.0]);
+        let h = draw.log_between(1e-3, 1e4);
+        let t_min = draw.pick(&[0.0, 0.0, 2.0]);
+        let t_max = t_min + draw.between(1.0, 10.0);
+        let mu_t = draw.log_between(1e-8, 1e-1);
+        Self { t_min, t_max, mu_a: 0.5 * mu_t, mu_s: 0.5 * mu_t, ..Self::any(draw) }.placed(draw, h, away)
+    }
+
+    fn infinite(draw: &mut Draw) -> Self {
+        let h = draw.log_between(1e-3, 1e2);
+        let t_h = draw.log_between(1e-2, 1e3) * draw.pick(&[1.0, 0.0, -1.0]);
+        let t_max = draw.pick(&[1e4, 1e8, f32::MAX, f32::INFINITY]);
+        Self { t_max, ..Self::any(draw) }.placed(draw, h, t_h)
+    }
+
+    fn short(draw: &mut Draw) -> Self {
+        let h = draw.log_between(1e-2, 1e1);
+        let t_h = draw.between(-10.0, 10.0);
+        let t_min = if draw.below(4) == 0 { draw.between(5e5, 2e6) } else { draw.between(0.0, 10.0) };
+        let angle = draw.log_between(1e-9, 1e-5);
+        let from = t_min - t_h;
+        let t_max = match draw.below(8) {
+            0 => t_min,
+            1 => t_min.next_down(),
+            2 | 3 => t_min.next_up(),
+            _ => t_min + angle * (h * h + from * from) / h,
+        };
+        // Short intervals next to the origin are shorter still in metres.
+        let t_min = if draw.below(4) == 0 { 0.0 } else { t_min };
+        let t_max = if t_min == 0.0 { angle * (h * h + t_h * t_h) / h } else { t_max };
+        Self { t_min, t_max, ..Self::any(draw) }.placed(draw, h, t_h)
+    }
+
+    fn cosine(draw: &mut Draw) -> Self {
+        // Along an axis, so that n.d and the distance to the dark side are exact.
+        let (h, t_h) = (draw.log_between(1e-2, 1e1), draw.between(-10.0, 10.0));
+        let length = draw.log_between(0.1, 100.0);
+        let mut case = Self { t_max: length, ..Self::any(draw) }.placed(draw, h, t_h);
+        let d = case.direction;
+        let across = (case.origin + d * t_h - case.position).normalize_or(Vec3::X);
+        let along = d * draw.pick(&[1.0, -1.0]);
+        match draw.below(8) {
+            0 => case.normal = across + d * draw.pick(&[0.0, -0.0, 1e-8, -1e-8]),
+            1 => case.normal = -across + d * draw.pick(&[0.0, 1e-8, -1e-8]),
+            2 => case.normal = along,
+            // N = 0 near an end: the normal is square to the line from the emitter to it.
+            3..=5 => {
+                let t = draw.pick(&[0.0, f32::from_bits(1), EPS, 1.0 - EPS, 1.0, 1.0 + 2.0 * EPS, 0.5]) * length;
+                let to = (case.origin + d * t - case.position).normalize_or(d);
+                let side = draw.pick(&[1.0, -1.0]);
+                case.normal = ((d - to * to.dot(d)) * side).normalize_or(along);
+            }
+            6 => case.normal = Vec3::ZERO,
+            _ => {}
+        }
+        case
+    }
+
+    fn medium(draw: &mut Draw) -> Self {
+        let mu_t = match draw.below(12) {
+            0 => 0.0,
+            1 => 1e-30,
+            2 => draw.pick(&[f32::INFINITY, -1.0, f32::NAN]),
+            _ => draw.log_between(1e-6, 1e4),
+        };
+        let mu_s = mu_t * draw.pick(&[0.0, 0.5, 1.0]);
+        let t_max = if draw.below(4) == 0 { f32::INFINITY } else { draw.between(1.0, 20.0) };
+        let mu_a = if mu_t.is_finite() { mu_t - mu_s } else { mu_t };
+        Self { mu_a, mu_s, t_max, ..Self::generic(draw) }
+    }
+
+    fn ray(draw: &mut Draw) -> Self {
+        let mut case = Self::any(draw);
+        match draw.below(5) {
+            0 => case.direction *= draw.between(0.9991, 1.0009),
+            1 => {
+                case.direction =
+                    Vec3::AXES[draw.below(3) as usize] * draw.pick(&[1.0, -1.0]) * Vec3::new(1.0, -1.0, 1.0)
+            }
+            2 => {
+                let out = draw.direction() * 1e6;
+                case.origin += out;
+                case.position += out;
+            }
+            3 => {
+                let bad = draw.pick(&[f32::NAN, f32::INFINITY, f32::NEG_INFINITY]);
+                let k = draw.below(3) as usize;
+                match draw.below(7) {
+                    0 => case.origin[k] = bad,
+                    1 => case.direction[k] = bad,
+                    2 => case.position[k] = bad,
+                    3 => case.normal[k] = bad,
+                    4 => case.t_min = bad,
+                    5 => case.t_max = f32::NAN,
+                    _ => case.u = bad,
+                }
+            }
+            _ => case.direction *= draw.pick(&[0.0, 0.9, 1.1, f32::MAX]),
+        }
+        case
+    }
+
+    fn random_bits(draw: &mut Draw) -> Self {
+        let case = Self::any(draw);
+        // Every field a bit pattern, or half of them: else hardly a direction would be one.
+        let all = draw.below(4) == 0;
+        let mut any = |value: f32| if all || draw.below(2) == 0 { f32::from_bits(draw.next() as u32) } else { value };
+        let mut vector = |v: Vec3| Vec3::new(any(v.x), any(v.y), any(v.z));
+        let (origin, position) = (vector(case.origin), vector(case.position));
+        let (direction, normal) = (case.direction, case.normal);
+        let wild = draw.below(8) == 0;
+        let mut any = |value: f32| if all || draw.below(2) == 0 { f32::from_bits(draw.next() as u32) } else { value };
+        let mut vector = |v: Vec3| if all || wild { Vec3::new(any(v.x), any(v.y), any(v.z)) } else { v };
+        let (direction, normal) = (vector(direction), vector(normal));
+        let mut positive = |value: f32| any(value).abs();
+        let (t_min, t_max) = (positive(case.t_min), positive(case.t_max));
+        let (mu_a, mu_s) = (positive(case.mu_a), positive(case.mu_s));
+        Self { origin, direction, t_min, t_max, position, normal, mu_a, mu_s, g: any(case.g), u: any(case.u) }
+    }
+}
+
+/// Columns of many cases.
+#[derive(Debug, Default)]
+pub struct Columns {
+    origin: [Vec<f32>; 3],
+    direction: [Vec<f32>; 3],
+    t_min: Vec<f32>,
+    t_max: Vec<f32>,
+    position: [Vec<f32>; 3],
+    normal: [Vec<f32>; 3],
+    mu_a: Vec<f32>,
+    mu_s: Vec<f32>,
+    g: Vec<f32>,
+    /// The variates.
+    pub u: Vec<f32>,
+}
+
+impl Columns {
+    /// The cases as columns.
+    #[must_use]
+    pub fn new(cases: &[Case]) -> Self {
+        let column = |field: fn(&Case) -> f32| cases.iter().map(field).collect::<Vec<_>>();
+        let columns = |field: fn(&Case) -> Vec3| [0, 1, 2].map(|k| cases.iter().map(|case| field(case)[k]).collect());
+        Self {
+            origin: columns(|case| case.origin),
+            direction: columns(|case| case.direction),
+            t_min: column(|case| case.t_min),
+            t_max: column(|case| case.t_max),
+            position: columns(|case| case.position),
+            normal: columns(|case| case.normal),
+            mu_a: column(|case| case.mu_a),
+            mu_s: column(|case| case.mu_s),
+            g: column(|case| case.g),
+            u: column(|case| case.u),
+        }
+    }
+
+    /// The rays.
+    #[must_use]
+    pub fn rays(&self) -> Rays<'_> {
+        let (origin, direction) = (self.origin.each_ref(), self.direction.each_ref());
+        Rays {
+            origin: origin.map(Vec::as_slice),
+            direction: direction.map(Vec::as_slice),
+            t_min: &self.t_min,
+            t_max: &self.t_max,
+        }
+    }
+
+    /// Their emitters.
+    #[must_use]
+    pub fn emitters(&self) -> Emitters<'_> {
+        let (position, normal) = (self.position.each_ref(), self.normal.each_ref());
+        Emitters::Each { position: position.map(Vec::as_slice), normal: normal.map(Vec::as_slice) }
+    }
+
+    /// Their media.
+    #[must_use]
+    pub fn media(&self) -> Media<'_> {
+        Media::Each { mu_a: &self.mu_a, mu_s: &self.mu_s, g: &self.g }
+    }
+}
+
+/// Random numbers of one case: a hash of seed, family and index, then a SplitMix64 sequence from there.
+struct Draw(u64);
+
+impl Draw {
+    fn new(seed: u64, family: u64, index: u64) -> Self {
+        let mut draw = Self(seed.wrapping_mul(0xd134_2543_de82_ef95) ^ family.wrapping_shl(56));
+        let key = draw.next();
+        Self(key ^ index.wrapping_mul(0x9e6c_63d0_76cc_4955))
+    }
+
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    fn below(&mut self, n: u64) -> u64 {
+        self.next() % n
+    }
+
+    fn pick(&mut self, values: &[f32]) -> f32 {
+        values[self.below(values.len() as u64) as usize]
+    }
+
+    /// A multiple of 2^-24 in `[0, 1)`.
+    fn uniform(&mut self) -> f32 {
+        (self.next() >> 40) as f32 * EPS
+    }
+
+    fn between(&mut self, a: f32, b: f32) -> f32 {
+        a + (b - a) * self.uniform()
+    }
+
+    fn log_between(&mut self, a: f32, b: f32) -> f32 {
+        self.between(a.ln(), b.ln()).exp()
+    }
+
+    fn direction(&mut self) -> Vec3 {
+        let z = self.between(-1.0, 1.0);
+        let (sin, cos) = self.between(-PI, PI).sin_cos();
+        let s = (1.0 - z * z).sqrt();
+        Vec3::new(s * cos, s * sin, z).normalize()
+    }
+}
