@@ -80,7 +80,7 @@ fn samples_invert_the_distribution() {
     let mut errors = Vec::new();
     for (case, strategy) in each() {
         let scene = case.oracle();
-        let columns = Columns::repeat(&case, variates(252));
+        let columns = Columns::repeat(&case, variates(2044));
         let drawn = columns.sample(&Sampler::new(strategy));
         assert_eq!(drawn.counts.sampled, columns.len(), "{strategy}, seed {SEED}, {case:?}");
         for (&t, &u) in drawn.t.iter().zip(columns.given()) {
