@@ -160,7 +160,9 @@ impl<I: Isa> Geometry<I> {
             & (obtuse | (rr * c(1e-25)).lt(subtends * (a.n + b.n)));
         let nn = I::V::narrow(dot(n, n) - isa.splat_double(1.0));
         let tolerance = c(2.001 * UNIT_TOLERANCE);
+        let [x, y, z] = [0, 1, 2].map(|k| ray.origin[k].abs().max(emitter.position[k].abs()));
         let valid = I::V::narrow(q).abs().le(tolerance)
+            & x.max(y).max(z).le(c(FARTHEST))
             & (nn.abs().le(tolerance) | normal_size.eq(c(0.0)))
             & c(0.0).le(ray.t_min)
             & ray.t_min.le(c(FARTHEST))
