@@ -74,4 +74,5 @@ pub use batch::{Counts, Emitters, Media, Rays, Samples};
 pub use error::Error;
 pub use sampler::{Sample, Sampler};
 pub use scene::{Emitter, FARTHEST, Medium, Ray, UNIT_TOLERANCE};
+pub use simd::Backend;
 pub use strategy::{Strategy, UnknownStrategy};

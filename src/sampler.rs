@@ -27,10 +27,16 @@ pub struct Sample {
 }
 
 impl Sampler {
-    /// A sampler of `strategy`.
+    /// A sampler of `strategy` on the widest backend of this machine.
     #[must_use]
     pub fn new(strategy: Strategy) -> Self {
-        Self { strategy, backend: Backend::Portable }
+        Self { strategy, backend: Backend::detect() }
+    }
+
+    /// The same on another backend, for tests and measurements.
+    #[must_use]
+    pub fn with_backend(self, backend: Backend) -> Self {
+        Self { backend, ..self }
     }
 
     /// Its density.

@@ -80,12 +80,31 @@ pub(crate) trait Kernel {
 /// An instruction set that this CPU has.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
-pub(crate) enum Backend {
-    /// `wide` at the target features of the build.
+pub enum Backend {
+    /// 8 lanes of the crate `wide`, at the target features of the build.
     Portable,
 }
 
 impl Backend {
+    /// Every backend that this CPU can run, the widest first.
+    pub fn available() -> impl Iterator<Item = Self> {
+        [Self::Portable].into_iter()
+    }
+
+    /// The widest available one.
+    #[must_use]
+    pub fn detect() -> Self {
+        Self::Portable
+    }
+
+    /// Its name on the command line and in JSON.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Portable => "portable",
+        }
+    }
+
     /// Runs `kernel` with these instructions on.
     pub(crate) fn run<K: Kernel>(self, kernel: K) -> K::Output {
         match self {

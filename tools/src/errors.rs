@@ -1,4 +1,4 @@
-//! Kernels in f32 against the oracle in f64: how far off they are, for one strategy on one family.
+//! Kernels in f32 against the oracle in f64: how far off they are, for one sampler on one family.
 
 use crate::families::{Case, Columns, Family};
 use airlight::oracle::Scene;
@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 /// Rays that are sampled in one call.
 const BATCH: usize = 1 << 14;
-/// Every how many rays the weight is compared, which takes the oracle's inverse.
+/// Every how many rays the weight and the floor are looked at, which takes the oracle's inverse.
 const WEIGHED: usize = 16;
 /// Below this share of its mean over the angle a density counts as vanishing, and so does N below this value: there
 /// errors are relative to the share of the mean, or to this N.
@@ -16,8 +16,13 @@ const VANISHING: f64 = 1e-3;
 const VARIATE: f64 = 1.0 / (1 << 21) as f64;
 /// Optical depth up to which the integrand and the weight are compared.
 const DEPTH: f64 = 30.0;
+/// 2^-24.
+const HALF_ULP_OF_1: f64 = f32::EPSILON as f64 / 2.0;
 /// Values below this are too near to the end of f32's range to be compared.
 const TINY: f64 = 1e-30;
+
+/// Kinds of errors that are listed.
+const KINDS: usize = 8;
 
 /// The errors of one strategy on one family; the lists ascend.
 #[derive(Clone, Debug, Default)]
@@ -28,6 +33,10 @@ pub struct Errors {
     pub sampled: usize,
     /// `|CDF(t) - u|`.
     pub cdf: Vec<f64>,
+    /// The same in units of what one ulp of `t` changes, or of 2^-24 where that is more.
+    pub cdf_ulp: Vec<f64>,
+    /// What exact arithmetic rounded to f32 once would have for `cdf`, on every 16th ray.
+    pub cdf_floor: Vec<f64>,
     /// The distance of `u` from the CDF of what rounds to `t`, one ulp either way.
     pub cdf_beyond_t: Vec<f64>,
     /// The pdf at the returned `t`, relative.
@@ -47,20 +56,19 @@ pub struct Errors {
     /// Rays that fell back to bisection.
     pub bisected: usize,
     /// The case of the largest error of each list, in their order.
-    pub worst: [Option<(f64, Case)>; 6],
+    pub worst: [Option<(f64, Case)>; KINDS],
 }
 
 impl Errors {
     /// Measures `rays` cases of a family; `step` is told how many more are done.
     #[must_use]
-    pub fn measure(strategy: Strategy, family: Family, rays: usize, seed: u64, step: impl Fn(usize)) -> Self {
+    pub fn measure(sampler: &Sampler, family: Family, rays: usize, seed: u64, step: impl Fn(usize)) -> Self {
         let mut errors = Self::default();
-        let sampler = Sampler::new(strategy);
         for first in (0..rays).step_by(BATCH) {
             let count = BATCH.min(rays - first);
             let cases: Vec<Case> =
                 (first..first + count).into_par_iter().map(|i| family.case(seed, i as u64)).collect();
-            errors.add(&sampler, &cases);
+            errors.add(sampler, &cases);
             step(count);
         }
         for list in errors.lists_mut() {
@@ -69,9 +77,24 @@ impl Errors {
         errors
     }
 
-    fn lists_mut(&mut self) -> [&mut Vec<f64>; 6] {
-        let Self { cdf, cdf_beyond_t, pdf, r, integrand, weight, .. } = self;
-        [cdf, cdf_beyond_t, pdf, r, integrand, weight]
+    /// The lists and their names, as in JSON.
+    #[must_use]
+    pub fn lists(&self) -> [(&'static str, &[f64]); KINDS] {
+        [
+            ("cdf", &self.cdf),
+            ("cdf_ulp", &self.cdf_ulp),
+            ("cdf_floor", &self.cdf_floor),
+            ("cdf_beyond_t", &self.cdf_beyond_t),
+            ("pdf", &self.pdf),
+            ("r", &self.r),
+            ("integrand", &self.integrand),
+            ("weight", &self.weight),
+        ]
+    }
+
+    fn lists_mut(&mut self) -> [&mut Vec<f64>; KINDS] {
+        let Self { cdf, cdf_ulp, cdf_floor, cdf_beyond_t, pdf, r, integrand, weight, .. } = self;
+        [cdf, cdf_ulp, cdf_floor, cdf_beyond_t, pdf, r, integrand, weight]
     }
 
     fn add(&mut self, sampler: &Sampler, cases: &[Case]) {
@@ -157,7 +180,7 @@ struct Row {
     out_of_range: bool,
     misjudged: bool,
     /// In the order of the lists of [`Errors`].
-    errors: [Option<f64>; 6],
+    errors: [Option<f64>; KINDS],
 }
 
 impl Row {
@@ -172,26 +195,32 @@ impl Row {
             nonfinite: all.iter().any(|x| !x.is_finite()),
             out_of_range: all.iter().any(|&x| x < 0.0),
             misjudged: sampled != lit.is_some() && !scene.as_ref().is_some_and(beyond_f32) && !case.is_extreme(),
-            errors: [None; 6],
+            errors: [None; KINDS],
         };
         let (Some(scene), Some(lit), true, false) = (scene, lit, sampled, case.is_extreme()) else { return row };
         let (t_min, t_max) = scene.interval();
         row.out_of_range |= !(t_min..=t_max).contains(&f64::from(t));
+        let u = f64::from(case.u);
+        let cdf = (scene.cdf(strategy, t.into()) - u).abs();
+        let [low, high] = [t.next_down(), t.next_up()].map(|t| scene.cdf(strategy, t.into()));
         row.errors = [
-            Some((scene.cdf(strategy, t.into()) - f64::from(case.u)).abs()),
-            Some(cdf_beyond_t(&scene, strategy, t, case.u.into())),
+            Some(cdf),
+            Some(cdf / (0.5 * (high - low)).max(HALF_ULP_OF_1)),
+            weigh.then(|| cdf_floor(&scene, strategy, u)),
+            Some((low - u).max(u - high).max(0.0)),
             pdf_error(&scene, strategy, lit, t.into(), pdf_at_t.into()),
             Some(r_error(&scene, t, r.into())),
             integrand_error(&scene, t.into(), integrand.into()),
-            weigh.then(|| weight_error(&scene, strategy, case.u.into(), weight.into())).flatten(),
+            weigh.then(|| weight_error(&scene, strategy, u, weight.into())).flatten(),
         ];
         row
     }
 }
 
-fn cdf_beyond_t(scene: &Scene, strategy: Strategy, t: f32, u: f64) -> f64 {
-    let [low, high] = [t.next_down(), t.next_up()].map(|t| scene.cdf(strategy, t.into()));
-    (low - u).max(u - high).max(0.0)
+/// The error of the exact inverse, rounded.
+fn cdf_floor(scene: &Scene, strategy: Strategy, u: f64) -> f64 {
+    let t = scene.invert(strategy, u) as f32;
+    (scene.cdf(strategy, t.into()) - u).abs()
 }
 
 fn pdf_error(scene: &Scene, strategy: Strategy, (t_a, t_b): (f64, f64), t: f64, pdf: f64) -> Option<f64> {

@@ -4,6 +4,8 @@ use airlight::oracle::Scene;
 use airlight::{Emitter, Emitters, Error, FARTHEST, Media, Medium, Ray, Rays};
 use glam::{DVec3, Vec3};
 use std::f32::consts::PI;
+use std::fmt;
+use std::str::FromStr;
 
 /// A family of rays, named for what is hard about them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -86,6 +88,25 @@ impl Family {
             Self::Ray => Case::ray(&mut draw),
             Self::RandomBits => Case::random_bits(&mut draw),
         }
+    }
+}
+
+/// The name of no family.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct UnknownFamily(String);
+
+impl fmt::Display for UnknownFamily {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "no family is called '{}'; there are {}", self.0, Family::ALL.map(Family::name).join(", "))
+    }
+}
+
+impl std::error::Error for UnknownFamily {}
+
+impl FromStr for Family {
+    type Err = UnknownFamily;
+    fn from_str(name: &str) -> Result<Self, UnknownFamily> {
+        Self::ALL.into_iter().find(|family| family.name() == name).ok_or_else(|| UnknownFamily(name.to_owned()))
     }
 }
 

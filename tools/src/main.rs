@@ -2,13 +2,16 @@
 //!
 //! This file is the command line alone; each subcommand is a file with an `Args` and a `run`.
 
+mod accuracy;
 mod arguments;
 mod check;
 mod deviation;
 mod npy;
 mod output;
+mod progress;
 mod sample;
 mod strata;
+mod table;
 mod variates;
 mod wavefront;
 
@@ -32,6 +35,7 @@ struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     Sample(sample::Args),
+    Accuracy(accuracy::Args),
 }
 
 fn main() -> ExitCode {
@@ -46,10 +50,11 @@ fn main() -> ExitCode {
         Err(error) => error.exit(),
     };
     let done = match command {
-        Command::Sample(args) => sample::run(&args),
+        Command::Sample(args) => sample::run(&args).map(|()| ExitCode::SUCCESS),
+        Command::Accuracy(args) => accuracy::run(&args),
     };
     match done {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(code) => code,
         Err(error) => {
             eprintln!("error: {error:#}");
             ExitCode::from(FAILURE)

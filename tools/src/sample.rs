@@ -6,12 +6,13 @@ use self::figures::{Figures, Row};
 use crate::arguments::{self, Json};
 use crate::check::Check;
 use crate::output::{self, Target};
+use crate::progress;
 use crate::strata::Strata;
 use crate::variates;
 use crate::wavefront::Wavefront;
 use airlight::{Counts, Media, Medium, Sampler, Samples, Strategy};
 use anyhow::{Context, Result, ensure};
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::ProgressBar;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
@@ -69,7 +70,7 @@ pub(crate) fn run(args: &Args) -> Result<()> {
 /// The figures of every strategy, and the first repetition of the last.
 fn measure(args: &Args, wavefront: &Wavefront) -> Result<(Figures, Columns)> {
     let strategies = if args.strategy.is_empty() { &Strategy::ALL[..] } else { &args.strategy };
-    let progress = progress(strategies.len().saturating_mul(args.rays))?;
+    let progress = progress::bar(strategies.len().saturating_mul(args.rays))?;
     progress.set_message("quadrature");
     let check = Check::new(wavefront, &args.medium, args.rays.min(wavefront.len()), args.check);
 
@@ -187,12 +188,6 @@ impl Columns {
 fn quantile(ascending: &[f64], p: f64) -> Option<f64> {
     let rank = (p * ascending.len() as f64).ceil() as usize;
     ascending.get(rank.max(1) - 1).copied()
-}
-
-/// A bar on standard error, hidden where that is no terminal.
-fn progress(rays: usize) -> Result<ProgressBar> {
-    let style = ProgressStyle::with_template("{msg:20} {wide_bar} {percent:>3} %  {eta}")?;
-    Ok(ProgressBar::new(rays as u64).with_style(style))
 }
 
 fn names() -> String {

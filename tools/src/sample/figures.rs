@@ -1,7 +1,7 @@
 //! What `airlight sample` found, as JSON and as a table.
 
+use crate::table;
 use airlight::Medium;
-use comfy_table::{CellAlignment, Table, presets};
 use serde::Serialize;
 use std::fmt;
 
@@ -64,7 +64,7 @@ impl fmt::Display for Figures {
         writeln!(f, "{}: {} rays, {} samples per strategy", self.wavefront, self.wavefront_rays, self.rays)?;
         writeln!(f, "medium: mu_a {mu_a} /m, mu_s {mu_s} /m, g {g}; seed {}, threads {}", self.seed, self.threads)?;
 
-        let mut speed = table(["strategy", "Msamples/s", "sampled", "empty", "invalid", "bisected"]);
+        let mut speed = table::new(["strategy", "Msamples/s", "sampled", "empty", "invalid", "bisected"]);
         for row in &self.results {
             speed.add_row([
                 row.strategy.to_owned(),
@@ -75,10 +75,10 @@ impl fmt::Display for Figures {
                 row.bisected.to_string(),
             ]);
         }
-        writeln!(f, "\n{}", lines(&speed))?;
+        writeln!(f, "\n{}", table::text(&speed))?;
 
         let mut radiance =
-            table(["strategy", "radiance", "+-", "estimate", "+-", "quadrature", "z", "CDF p99.9", "CDF max"]);
+            table::new(["strategy", "radiance", "+-", "estimate", "+-", "quadrature", "z", "CDF p99.9", "CDF max"]);
         for row in &self.results {
             radiance.add_row([
                 row.strategy.to_owned(),
@@ -93,23 +93,9 @@ impl fmt::Display for Figures {
             ]);
         }
         let checked = self.results.first().map_or(0, |row| row.check_rays);
-        writeln!(f, "\n{}", lines(&radiance))?;
+        writeln!(f, "\n{}", table::text(&radiance))?;
         writeln!(f, "\nestimate, quadrature, z and CDF, which is |CDF(t) - u|: on {checked} of the rays")
     }
-}
-
-fn table<const COLUMNS: usize>(heads: [&str; COLUMNS]) -> Table {
-    let mut table = Table::new();
-    table.load_style(presets::NOTHING).set_header(heads);
-    for column in table.column_iter_mut().skip(1) {
-        column.set_cell_alignment(CellAlignment::Right);
-    }
-    table
-}
-
-/// The table without the spaces that pad its lines.
-fn lines(table: &Table) -> String {
-    table.lines().map(|line| line.trim().to_owned()).collect::<Vec<_>>().join("\n")
 }
 
 fn figure(value: Option<f64>, format: impl Fn(f64) -> String) -> String {
