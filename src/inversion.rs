@@ -3,7 +3,7 @@
 use crate::simd::{Isa, Lanes};
 
 /// Steps after which the iteration ends in any case.
-const STEPS: usize = 8;
+const STEPS: usize = 12;
 
 /// Where an increasing function takes a value.
 pub(crate) struct Root<I: Isa> {
