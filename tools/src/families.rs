@@ -287,8 +287,8 @@ impl Case {
         match draw.below(5) {
             0 => case.direction *= draw.between(0.9991, 1.0009),
             1 => {
-                case.direction =
-                    Vec3::AXES[draw.below(3) as usize] * draw.pick(&[1.0, -1.0]) * Vec3::new(1.0, -1.0, 1.0)
+                let sign = draw.pick(&[1.0, -1.0]);
+                case.direction = Vec3::AXES[draw.below(3) as usize] * Vec3::new(sign, -sign, sign);
             }
             2 => {
                 let out = draw.direction() * 1e6;
