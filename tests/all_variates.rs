@@ -1,0 +1,72 @@
+//! Over all 2^24 variates the mean weight is the radiance, and no weight is a firefly: light behind, beside and before
+//! the origin, infinite rays included.
+
+use airlight::oracle::Scene;
+use airlight::{Emitter, Emitters, Media, Medium, Ray, Rays, Sampler, Samples, Strategy};
+use glam::Vec3;
+
+/// One variate of every stratum of width 2^-24.
+const VARIATES: usize = 1 << 24;
+const BATCH: usize = 1 << 20;
+
+/// Rays along z; the emitter at `h` beside and `t_h` along them.
+fn scenes() -> Vec<(Ray, Emitter, Medium)> {
+    let mut scenes = Vec::new();
+    for (t_h, h) in [(-2.0, 0.5), (0.0, 0.7), (3.0, 0.25), (4.0, 0.01)] {
+        for (t_min, t_max) in [(0.0, 6.0), (0.0, f32::INFINITY)] {
+            let ray = Ray::new(Vec3::ZERO, Vec3::Z, t_min, t_max).unwrap();
+            let position = Vec3::new(0.0, h, t_h);
+            let normal = Vec3::new(0.0, -0.8, 0.6);
+            scenes.push((ray, Emitter::point_normal(position, normal).unwrap(), Medium::new(0.1, 0.4, 0.6).unwrap()));
+            scenes.push((ray, Emitter::point(position).unwrap(), Medium::new(0.1, 0.4, -0.3).unwrap()));
+        }
+    }
+    scenes
+}
+
+/// The largest `f/p` of the oracle on a fine grid of quantiles.
+fn supremum(scene: &Scene, strategy: Strategy) -> f64 {
+    let quantiles = (0..=4096).map(|i| (f64::from(i) / 4096.0).clamp(1e-7, 1.0 - 1e-7));
+    quantiles
+        .map(|u| {
+            let t = scene.invert(strategy, u);
+            scene.integrand(t) / scene.pdf(strategy, t)
+        })
+        .fold(0.0, f64::max)
+}
+
+#[test]
+fn the_mean_over_all_variates_is_the_radiance() {
+    for (ray, emitter, medium) in scenes() {
+        let scene = Scene::new(&ray, &emitter, &medium);
+        let column = |value: f32| vec![value; BATCH];
+        let [zero, one] = [0.0, 1.0].map(column);
+        let (t_min, t_max) = (column(ray.t_min()), column(ray.t_max()));
+        let rays = Rays { origin: [&zero; 3], direction: [&zero, &zero, &one], t_min: &t_min, t_max: &t_max };
+        for strategy in Strategy::ALL {
+            let [mut t, mut pdf, mut weight, mut u] = [(); 4].map(|()| column(0.0));
+            let (mut sum, mut largest) = (0.0, 0.0f64);
+            for first in (0..VARIATES).step_by(BATCH) {
+                for (i, u) in u.iter_mut().enumerate() {
+                    *u = ((first + i) as f64 + 0.5) as f32 / VARIATES as f32;
+                }
+                let mut samples = Samples { t: &mut t, pdf: &mut pdf, weight: Some(&mut weight), r: None };
+                let (emitters, media) = (Emitters::One(emitter), Media::One(medium));
+                Sampler::new(strategy).sample(&rays, &emitters, &media, &u, &mut samples).unwrap();
+                sum += weight.iter().map(|&w| f64::from(w)).sum::<f64>();
+                largest = weight.iter().fold(largest, |largest, &w| largest.max(w.into()));
+            }
+            let (mean, radiance) = (sum / VARIATES as f64, scene.radiance());
+            let error = (mean / radiance - 1.0).abs();
+            let bound = supremum(&scene, strategy);
+            println!(
+                "{strategy}: h {} t_h {} error {error:.1e}, largest {:.3}",
+                scene.h(),
+                scene.t_h(),
+                largest / bound
+            );
+            assert!(error < 1e-4, "{strategy}: {mean:e} is not {radiance:e}, {ray:?} {emitter:?} {medium:?}");
+            assert!(largest <= 2.0 * bound, "{strategy}: weight {largest:e} over {bound:e}, {ray:?} {emitter:?}");
+        }
+    }
+}
