@@ -58,7 +58,7 @@ pub enum Media<'a> {
 pub struct Samples<'a> {
     /// Distances along the rays, in `[t_min, t_max]` \[m\].
     pub t: &'a mut [f32],
-    /// Probability densities over distance \[1/m\].
+    /// Probability densities over distance \[1/m\]; one below f32's range is 0.
     pub pdf: &'a mut [f32],
     /// `mu_s T rho N / (r^2 pdf)`: the one-sample estimate of the ray's single-scattered radiance per unit of the
     /// emitter's intensity \[1/m^2\], with `1/r^2` cancelled analytically and `T` counted from `t_min`.
@@ -73,7 +73,8 @@ pub struct Samples<'a> {
 pub struct Counts {
     /// Rays with a sample.
     pub sampled: usize,
-    /// Valid rays without one: `t_min = t_max`, or no point of the ray is lit.
+    /// Valid rays without one: `t_min = t_max`, or no point of the ray is lit, or less than f32 can say anything about:
+    /// an interval shorter than 1e-18 m, or than 1e-36 of `r^2`, or that subtends 1e-30 rad, or 1e-25 of the light.
     pub empty: usize,
     /// Rays with a value that is NaN or out of range.
     pub invalid: usize,

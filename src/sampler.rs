@@ -47,8 +47,14 @@ impl Sampler {
 
     /// Draws one distance per ray from the uniform variates `u` in `[0, 1]`.
     ///
-    /// `t` increases with `u`. What is written for an empty or invalid ray is 0. A variate outside `[0, 1]` makes its
-    /// ray invalid. Equal inputs give equal bits, wherever they stand in a batch and however many threads there are.
+    /// `t` increases with `u`, but for rounding: from two variates closer than 2^-20 the larger one may come out first,
+    /// by no more than 5e-6 of the CDF. What is written for an empty or invalid ray is 0. A variate outside `[0, 1]`
+    /// makes its ray invalid. Equal inputs give equal bits, wherever they stand in a batch and however many threads
+    /// there are.
+    ///
+    /// Beyond the rounding of `t` to f32 the CDF at `t` is within 2^-20 of `u` (2^-17 for the Taylor densities), and the
+    /// weight is that of a variate so near to `u`, within 1e-3 for 99.9 % of the rays (1e-5 for most), as measured by
+    /// `airlight accuracy`. At u = 0 and 1 a density that vanishes there is sampled next to the end.
     ///
     /// # Errors
     /// [`Error::Length`] if a column has another length than `rays.origin[0]`. Nothing is written then.
@@ -80,6 +86,11 @@ impl Sampler {
 
     /// The density at given distances `t`, for multiple importance sampling \[1/m\]; 0 outside the sampled interval.
     ///
+    /// It is the density of what [`sample`](Self::sample) returns, taken at `t` as rounded: where `t` resolves `r` the
+    /// two agree within 1e-5, next to the emitter that of `sample` is the exact one. Relative error at a given `t`: below
+    /// 8 ulp for 99 % of rays (48 for the Taylor densities), 64 (256) for 99.99 %; where the density vanishes with N,
+    /// relative to a thousandth of its mean over the angle. A density below f32's range is 0.
+    ///
     /// [`Counts::sampled`] counts the rays that have a sample, whether or not it could be at `t`. A NaN in `t` makes
     /// its ray invalid.
     ///
@@ -99,7 +110,8 @@ impl Sampler {
     }
 
     /// The integrand `mu_s T rho N / r^2` at given distances `t` \[1/m^3\], the same for every strategy; 0 outside
-    /// `[t_min, t_max]`.
+    /// `[t_min, t_max]`, and at most `f32::MAX`. Max error 48 ulp where the optical depth is below 30; where N vanishes,
+    /// relative to N = 1e-3.
     ///
     /// # Errors
     /// As [`sample`](Self::sample).
