@@ -45,7 +45,10 @@ impl Sampler {
         self.strategy
     }
 
-    /// Draws one distance per ray from the uniform variates `u` in `[0, 1]`.
+    /// Draws a distance for each of the uniform variates `u` in `[0, 1]`.
+    ///
+    /// `u` and the columns of `samples` have the length of the batch, or k times that: then the k samples of a ray lie
+    /// next to each other, those of ray `i` from `k i` on, and share the set-up of the ray's density.
     ///
     /// `t` increases with `u`, but for rounding: from two variates closer than 2^-20 the larger one may come out first,
     /// by no more than 5e-6 of the CDF. What is written for an empty or invalid ray is 0. A variate outside `[0, 1]`
@@ -57,7 +60,8 @@ impl Sampler {
     /// `airlight accuracy`. At u = 0 and 1 a density that vanishes there is sampled next to the end.
     ///
     /// # Errors
-    /// [`Error::Length`] if a column has another length than `rays.origin[0]`. Nothing is written then.
+    /// [`Error::Length`] if a column has another length than `rays.origin[0]`, or `u` one that is no multiple of it, or
+    /// an output another one than `u`. Nothing is written then.
     pub fn sample(
         &self,
         rays: &Rays<'_>,
@@ -66,14 +70,14 @@ impl Sampler {
         u: &[f32],
         samples: &mut Samples<'_>,
     ) -> Result<Counts, Error> {
-        let inputs = Inputs::new(rays, emitters, media, u, "u")?;
-        inputs.check("samples.t", samples.t)?;
-        inputs.check("samples.pdf", samples.pdf)?;
+        let inputs = Inputs::new(rays, emitters, media)?.with(u, "u")?;
+        inputs.check_given("samples.t", samples.t)?;
+        inputs.check_given("samples.pdf", samples.pdf)?;
         if let Some(weight) = &samples.weight {
-            inputs.check("samples.weight", weight)?;
+            inputs.check_given("samples.weight", weight)?;
         }
         if let Some(r) = &samples.r {
-            inputs.check("samples.r", r)?;
+            inputs.check_given("samples.r", r)?;
         }
         let out = Samples {
             t: samples.t,
@@ -82,6 +86,26 @@ impl Sampler {
             r: samples.r.as_deref_mut(),
         };
         Ok(road::travel::<road::Sample>(self.backend, self.strategy, &inputs, out))
+    }
+
+    /// An estimate of each ray's single-scattered radiance per unit of the emitter's intensity \[1/m^2\], without a
+    /// sample: what the product density has for the integral of the integrand. For choosing between emitters, or guiding.
+    ///
+    /// # Errors
+    /// As [`sample`](Self::sample), and [`Error::Unavailable`] unless [`Strategy::has_radiance`].
+    pub fn radiance(
+        &self,
+        rays: &Rays<'_>,
+        emitters: &Emitters<'_>,
+        media: &Media<'_>,
+        radiance: &mut [f32],
+    ) -> Result<Counts, Error> {
+        if !self.strategy.has_radiance() {
+            return Err(Error::Unavailable { field: "radiance", strategy: self.strategy });
+        }
+        let inputs = Inputs::new(rays, emitters, media)?;
+        inputs.check("radiance", radiance)?;
+        Ok(road::travel::<road::Radiance>(self.backend, self.strategy, &inputs, radiance))
     }
 
     /// The density at given distances `t`, for multiple importance sampling \[1/m\]; 0 outside the sampled interval.
@@ -104,8 +128,8 @@ impl Sampler {
         t: &[f32],
         pdf: &mut [f32],
     ) -> Result<Counts, Error> {
-        let inputs = Inputs::new(rays, emitters, media, t, "t")?;
-        inputs.check("pdf", pdf)?;
+        let inputs = Inputs::new(rays, emitters, media)?.with(t, "t")?;
+        inputs.check_given("pdf", pdf)?;
         Ok(road::travel::<road::Pdf>(self.backend, self.strategy, &inputs, pdf))
     }
 
@@ -123,8 +147,8 @@ impl Sampler {
         t: &[f32],
         integrand: &mut [f32],
     ) -> Result<Counts, Error> {
-        let inputs = Inputs::new(rays, emitters, media, t, "t")?;
-        inputs.check("integrand", integrand)?;
+        let inputs = Inputs::new(rays, emitters, media)?.with(t, "t")?;
+        inputs.check_given("integrand", integrand)?;
         Ok(road::travel::<road::Evaluate>(self.backend, Strategy::EquiAngular, &inputs, integrand))
     }
 
@@ -182,6 +206,7 @@ fn one<T: road::Task>(
         emitters: Emitters::One(*emitter),
         media: Media::One(*medium),
         given: from_ref(&given),
+        per_ray: 1,
     };
     road::travel::<T>(backend, strategy, &inputs, out)
 }

@@ -80,6 +80,7 @@ impl Scene {
             Strategy::PointNormal => over_angle(arc, Shape::Cosine),
             Strategy::TaylorTransmittance => over_angle(arc, Shape::Taylor(Taylor::transmittance(self.mu_t * self.h))),
             Strategy::TaylorPhase => over_angle(arc, Shape::Taylor(Taylor::phase(self.g))),
+            _ => return None, // PRODUCT
         })
     }
 }
