@@ -26,5 +26,6 @@ mod distance;
 pub mod paper;
 pub mod quadrature;
 mod scene;
+mod twofold;
 
 pub use scene::Scene;
