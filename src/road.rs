@@ -61,7 +61,11 @@ impl<T: Task> Kernel for Chunk<'_, '_, T> {
         let Self { strategy, inputs, out } = self;
         match strategy {
             Strategy::Transmittance => T::chunk::<I, Transmittance<I>>(isa, inputs, out),
-            Strategy::EquiAngular => T::chunk::<I, EquiAngular<I>>(isa, inputs, out),
+            Strategy::EquiAngular
+            | Strategy::Product3
+            | Strategy::Product5
+            | Strategy::Product9
+            | Strategy::Product17 => T::chunk::<I, EquiAngular<I>>(isa, inputs, out),
             Strategy::PointNormal => T::chunk::<I, PointNormal<I>>(isa, inputs, out),
             Strategy::TaylorTransmittance => T::chunk::<I, Taylor<I, OfTransmittance>>(isa, inputs, out),
             Strategy::TaylorPhase => T::chunk::<I, Taylor<I, OfPhase>>(isa, inputs, out),

@@ -26,12 +26,29 @@ pub enum Strategy {
     TaylorTransmittance,
     /// Proportional to `N/r^2` times the Taylor polynomial of the phase function.
     TaylorPhase,
+    /// Proportional to the whole integrand, linear between its values at 3 knots.
+    Product3,
+    /// The same with 5 knots.
+    Product5,
+    /// The same with 9 knots.
+    Product9,
+    /// The same with 17 knots.
+    Product17,
 }
 
 impl Strategy {
     /// All of them, from the simplest on.
-    pub const ALL: [Self; 5] =
-        [Self::Transmittance, Self::EquiAngular, Self::PointNormal, Self::TaylorTransmittance, Self::TaylorPhase];
+    pub const ALL: [Self; 9] = [
+        Self::Transmittance,
+        Self::EquiAngular,
+        Self::PointNormal,
+        Self::TaylorTransmittance,
+        Self::TaylorPhase,
+        Self::Product3,
+        Self::Product5,
+        Self::Product9,
+        Self::Product17,
+    ];
 
     /// Its name on the command line, in JSON and in prose.
     #[must_use]
@@ -42,6 +59,10 @@ impl Strategy {
             Self::PointNormal => "point-normal",
             Self::TaylorTransmittance => "taylor-transmittance",
             Self::TaylorPhase => "taylor-phase",
+            Self::Product3 => "product-3",
+            Self::Product5 => "product-5",
+            Self::Product9 => "product-9",
+            Self::Product17 => "product-17",
         }
     }
 }
