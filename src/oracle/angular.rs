@@ -10,7 +10,7 @@ use super::quadrature::gauss_legendre;
 ///
 /// There the published code trusts it up to less than 0.01 rad, so little is lost; but `m^6` and what is made of it
 /// would overflow an f32.
-pub(super) const LARGEST_M: f64 = 32.0;
+const LARGEST_M: f64 = 32.0;
 
 /// A density over the directions of an arc, up to its constant factor.
 #[derive(Clone, Copy, Debug)]
@@ -61,15 +61,22 @@ impl Taylor {
 pub(super) struct Angular {
     arc: Arc,
     shape: Shape,
+    total: f64,
 }
 
 impl Angular {
     pub(super) fn new(arc: Arc, shape: Shape) -> Self {
-        Self { arc, shape }
+        let mut angular = Self { arc, shape, total: 1.0 };
+        angular.total = angular.mass(arc.start(), arc.end());
+        angular
     }
 
     pub(super) fn cdf(&self, t: f64) -> f64 {
-        let angle = self.arc.at(t);
+        self.cdf_at(self.arc.at(t))
+    }
+
+    /// Up to a direction.
+    pub(super) fn cdf_at(&self, angle: Angle) -> f64 {
         let below = self.mass(self.arc.start(), angle);
         let above = self.mass(angle, self.arc.end());
         below / (below + above)
@@ -77,13 +84,25 @@ impl Angular {
 
     /// Over `theta` \[1/rad\].
     pub(super) fn pdf(&self, t: f64) -> f64 {
-        self.weight(self.arc.at(t)) / self.mass(self.arc.start(), self.arc.end())
+        self.pdf_at(self.arc.at(t))
+    }
+
+    /// The same in a direction.
+    pub(super) fn pdf_at(&self, angle: Angle) -> f64 {
+        self.weight(angle) / self.total
+    }
+
+    /// The distance \[m\] where a polynomial ends, if that is between the ends of the arc.
+    pub(super) fn kink(&self) -> Option<f64> {
+        let Shape::Taylor(taylor) = &self.shape else { return None };
+        let kink = self.kink_of(taylor);
+        (0.0 < kink.from_a && 0.0 < kink.to_b).then(|| self.arc.t(kink))
     }
 
     /// Newton's method, or a bisection where it would leave what is known to hold the root.
     pub(super) fn invert(&self, u: f64) -> f64 {
-        let (start, end) = (self.arc.start(), self.arc.end());
-        let target = u * self.mass(start, end);
+        let start = self.arc.start();
+        let target = u * self.total;
         let (mut low, mut high) = (0.0, self.arc.width());
         let mut delta = u * high;
         for _ in 0..100 {
@@ -118,7 +137,7 @@ impl Angular {
             Shape::Uniform => Angle::between(lower, upper),
             Shape::Cosine => self.arc.integral_of_cosine(lower, upper),
             Shape::Taylor(taylor) => {
-                let kink = self.arc.after(taylor.kink() - self.arc.theta(self.arc.start()));
+                let kink = self.kink_of(taylor);
                 if lower.from_a < kink.from_a && kink.from_a < upper.from_a {
                     self.mass_of_piece(lower, kink) + self.mass_of_piece(kink, upper)
                 } else {
@@ -126,6 +145,10 @@ impl Angular {
                 }
             }
         }
+    }
+
+    fn kink_of(&self, taylor: &Taylor) -> Angle {
+        self.arc.after(taylor.kink() - self.arc.theta(self.arc.start()))
     }
 
     /// The mass where the weight is smooth, by quadrature: (22) cancels on narrow arcs. For a polynomial of order 6

@@ -49,10 +49,10 @@ pub(super) struct Arc {
     pub(super) t_a: f64,
     pub(super) t_b: f64,
     /// `t_a - t_h` and `t_b - t_h`.
-    a: f64,
-    b: f64,
-    h: f64,
-    t_h: f64,
+    pub(super) a: f64,
+    pub(super) b: f64,
+    pub(super) h: f64,
+    pub(super) t_h: f64,
     psi_a: f64,
     chi_b: f64,
     /// The subtended angle `theta_b - theta_a`.
@@ -120,6 +120,14 @@ impl Arc {
         Angle {
             from_a: subtended(self.h, t - self.t_a, self.a, t_prime),
             to_b: subtended(self.h, self.t_b - t, t_prime, self.b),
+        }
+    }
+
+    /// The same by the point's distances \[m\] from the start and to the end.
+    pub(super) fn between_ends(&self, after_a: f64, before_b: f64) -> Angle {
+        Angle {
+            from_a: subtended(self.h, after_a, self.a, self.a + after_a),
+            to_b: subtended(self.h, before_b, self.b - before_b, self.b),
         }
     }
 

@@ -7,17 +7,31 @@
 //! | `PointNormal` | `N` | `theta` | the lit part |
 //! | `TaylorTransmittance` | `N P(min(theta, theta_c))`, `P` the polynomial (4)-(10) for `mu_t h` up to 32 | `theta` | the lit part |
 //! | `TaylorPhase` | `N P(min(s theta, theta_c))`, `P` the polynomial (13)-(19) for `abs(g)`, `s` the sign of `g` | `theta` | the lit part |
+//! | `Product3` to `Product17` | `T rho N dtheta/dv` at the knots, linear between them | `v` of the half angle | the lit part |
 
 use super::angular::{Angular, Shape, Taylor};
 use super::arc::Arc;
 use super::distance::Exponential;
+use super::product::Product;
 use super::scene::Scene;
 use crate::Strategy;
 
-/// A density over one of the two variables.
-enum Density {
+/// A density, by its variable.
+pub(super) enum Density {
     Distance(Exponential),
     Angle(Angular),
+    HalfAngle(Product),
+}
+
+impl Density {
+    /// Where it is not smooth between its ends \[m\].
+    pub(super) fn kinks(&self) -> Vec<f64> {
+        match self {
+            Self::Distance(_) => vec![],
+            Self::Angle(angular) => angular.kink().into_iter().collect(),
+            Self::HalfAngle(product) => product.kinks(),
+        }
+    }
 }
 
 /// The density of a strategy, over distance. A scene without a [lit](Scene::lit) part has none: its pdf is 0, and its
@@ -36,6 +50,7 @@ impl Scene {
         match density {
             Density::Distance(exponential) => exponential.cdf(t),
             Density::Angle(angular) => angular.cdf(t),
+            Density::HalfAngle(product) => product.cdf(t),
         }
     }
 
@@ -47,6 +62,7 @@ impl Scene {
                 Density::Distance(exponential) => exponential.pdf(t),
                 // dtheta/dt = h/r^2
                 Density::Angle(angular) => angular.pdf(t) * self.h / self.r(t).powi(2),
+                Density::HalfAngle(product) => product.pdf(t) * self.h / self.r(t).powi(2),
             },
             _ => 0.0,
         }
@@ -65,13 +81,15 @@ impl Scene {
         match density {
             Density::Distance(exponential) => exponential.invert(u),
             Density::Angle(angular) => angular.invert(u),
+            Density::HalfAngle(product) => product.invert(u),
         }
     }
 
     /// The density of a strategy and the interval \[m\] that it is one on.
-    fn density(&self, strategy: Strategy) -> Option<(Density, f64, f64)> {
+    pub(super) fn density(&self, strategy: Strategy) -> Option<(Density, f64, f64)> {
         let arc = self.arc?;
         let over_angle = |arc: Arc, shape| (Density::Angle(Angular::new(arc, shape)), arc.t_a, arc.t_b);
+        let product = |knots| (Density::HalfAngle(Product::new(self, arc, knots)), arc.t_a, arc.t_b);
         Some(match strategy {
             Strategy::Transmittance => {
                 (Density::Distance(Exponential::new(self.mu_t, self.interval())), self.t_min, self.t_max)
@@ -80,16 +98,17 @@ impl Scene {
             Strategy::PointNormal => over_angle(arc, Shape::Cosine),
             Strategy::TaylorTransmittance => over_angle(arc, Shape::Taylor(Taylor::transmittance(self.mu_t * self.h))),
             Strategy::TaylorPhase => over_angle(arc, Shape::Taylor(Taylor::phase(self.g))),
-            _ => return None, // PRODUCT
+            Strategy::Product3 => product(3),
+            Strategy::Product5 => product(5),
+            Strategy::Product9 => product(9),
+            Strategy::Product17 => product(17),
         })
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::angular::LARGEST_M;
     use super::super::arbitrary::{config, scene, uniform};
-    use super::super::paper::{phase_clamp, transmittance_clamp};
     use super::super::quadrature::integrate_pieces;
     use super::*;
     use proptest::{prop_assert, proptest};
@@ -97,13 +116,6 @@ mod tests {
     /// The error of a cdf that the rounding of `t` alone makes.
     fn of_rounding(scene: &Scene, strategy: Strategy, t: f64) -> f64 {
         4.0 * f64::EPSILON * t.abs().max((t - scene.t_h).abs()) * scene.pdf(strategy, t)
-    }
-
-    /// Where a polynomial ends: a kink within a sixteenth of the end of an interval escapes the quadrature.
-    fn kinks(scene: &Scene) -> [f64; 3] {
-        let of_t = transmittance_clamp((scene.mu_t * scene.h).min(LARGEST_M));
-        let of_rho = phase_clamp(scene.g.abs());
-        [of_t, of_rho, -of_rho].map(|theta| scene.t_h + scene.h * theta.tan())
     }
 
     proptest! {
@@ -147,7 +159,9 @@ mod tests {
                 }
                 let (t0, t1) = (scene.invert(strategy, u[0].min(u[1])), scene.invert(strategy, u[0].max(u[1])));
                 let mut ends = vec![t0, 0.5 * (t0 + t1), t1];
-                ends.extend(kinks(&scene).into_iter().filter(|t| (t0..t1).contains(t)));
+                // A kink within a sixteenth of the end of an interval escapes the quadrature.
+                let kinks = scene.density(strategy).unwrap().0.kinks();
+                ends.extend(kinks.into_iter().filter(|t| (t0..t1).contains(t)));
                 ends.sort_by(f64::total_cmp);
                 let mass = integrate_pieces(|t| scene.pdf(strategy, t), &ends, 1e-13);
                 let expected = scene.cdf(strategy, t1) - scene.cdf(strategy, t0);

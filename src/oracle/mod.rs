@@ -1,8 +1,8 @@
 //! The truth, in f64: one ray at a time, plain and slow, to test the sampler against.
 //!
 //! Nothing here is shared with the kernels but the types that go in. [`Scene`] has the integrand and its integral by
-//! quadrature, and each [`Strategy`](crate::Strategy)'s density, distribution and inverse; [`paper`] the published
-//! equations; [`quadrature`] the integrals.
+//! quadrature, and each [`Strategy`](crate::Strategy)'s density, distribution, inverse and variance; [`paper`] the
+//! published equations; [`quadrature`] the integrals.
 //!
 //! The symbols, with `x(t)` the point of the ray at `t` and `y` the emitter:
 //!
@@ -24,8 +24,11 @@ mod arc;
 mod density;
 mod distance;
 pub mod paper;
+mod product;
 pub mod quadrature;
 mod scene;
 mod twofold;
+mod variance;
+mod warp;
 
 pub use scene::Scene;

@@ -1,6 +1,6 @@
 //! One ray, one emitter, one medium, and the light that is scattered once on the way.
 
-use super::arc::{Arc, Normal, subtended};
+use super::arc::{Angle, Arc, Normal, subtended};
 use super::quadrature::integrate_pieces;
 use super::twofold::Vector;
 use crate::scene::{Emitter, FARTHEST, Medium, Ray};
@@ -129,7 +129,7 @@ impl Scene {
         let along = if self.g < 0.0 { -t_prime } else { t_prime };
         // 1 + along/r, but not as a difference of nearly equal numbers
         let one_plus_sin = if along < 0.0 { self.h * (self.h / r) / (r - along) } else { 1.0 + along / r };
-        self.henyey_greenstein(one_plus_sin)
+        henyey_greenstein(self.g, one_plus_sin)
     }
 
     /// The emitter's cosine `N` at `t` \[m\]; 1 without a normal.
@@ -149,26 +149,31 @@ impl Scene {
     #[must_use]
     pub fn radiance(&self) -> f64 {
         let Some(arc) = &self.arc else { return 0.0 };
-        let sign = if self.g < 0.0 { -1.0 } else { 1.0 };
         // T, rho and N vary fastest towards the ends of the arc, over angles of any size. As a function of the logarithm
         // of the odds of the angle every such layer is as wide as any other. 1/r^2 goes, for dt/r^2 = dtheta/h.
         let integrand = |s: f64| {
             let angle = arc.at_odds(s);
             let path = arc.t(angle) - self.t_min + self.h / arc.cos_theta(angle);
-            let rho = self.henyey_greenstein(arc.one_plus_sin_theta(sign, angle));
+            let rho = phase(self.g, arc, angle);
             (-self.mu_t * path).exp() * rho * arc.cosine(angle) * angle.from_a * angle.to_b
         };
         // exp(-64) of the arc is left out at each end.
         let ends: [f64; 9] = std::array::from_fn(|i| 16.0 * i as f64 - 64.0);
         self.mu_s / self.h * integrate_pieces(integrand, &ends, 1e-13) / arc.width()
     }
+}
 
-    /// (12), from `1 + sin theta` for `g >= 0` and from `1 - sin theta` for `g < 0`: the distance from the peak.
-    fn henyey_greenstein(&self, one_plus_sin: f64) -> f64 {
-        let g = self.g.abs();
-        let s = (1.0 - g).powi(2) + 2.0 * g * one_plus_sin;
-        (1.0 - g) * (1.0 + g) / (4.0 * PI * s * s.sqrt())
-    }
+/// `rho` \[1/sr\] in a direction of the arc.
+pub(super) fn phase(g: f64, arc: &Arc, angle: Angle) -> f64 {
+    let sign = if g < 0.0 { -1.0 } else { 1.0 };
+    henyey_greenstein(g, arc.one_plus_sin_theta(sign, angle))
+}
+
+/// (12), from `1 + sin theta` for `g >= 0` and from `1 - sin theta` for `g < 0`: the distance from the peak.
+fn henyey_greenstein(g: f64, one_plus_sin: f64) -> f64 {
+    let g = g.abs();
+    let s = (1.0 - g).powi(2) + 2.0 * g * one_plus_sin;
+    (1.0 - g) * (1.0 + g) / (4.0 * PI * s * s.sqrt())
 }
 
 #[cfg(test)]

@@ -43,7 +43,7 @@ impl Comparison {
 impl Check {
     /// `count` of the first `reached` rays, the same for every seed.
     pub(crate) fn new(wavefront: &Wavefront, medium: &Medium, reached: usize, count: usize) -> Self {
-        let rays = spread(reached, count.min(reached));
+        let rays = spread(reached, count.min(reached), 0);
         let scene = |&i: &usize| {
             let scene = Scene::new(&wavefront.ray(i).ok()?, &wavefront.emitter(i).ok()?, medium);
             Some((scene, scene.radiance()))
@@ -80,9 +80,9 @@ impl Check {
 
 /// One of each of `count` equal stretches of the numbers below `end`. Which one is drawn by lot: every k-th would be a
 /// few columns of the image.
-fn spread(end: usize, count: usize) -> Vec<usize> {
+pub(crate) fn spread(end: usize, count: usize, seed: u64) -> Vec<usize> {
     let mut lots = vec![0.0; count];
-    variates::fill(0, 0, &mut lots);
+    variates::fill(seed, 0, &mut lots);
     let stretch = |i| i * end / count..(i + 1) * end / count;
     lots.iter()
         .enumerate()
@@ -97,11 +97,11 @@ mod tests {
     #[test]
     fn a_subset_is_spread_and_distinct() {
         for (end, count) in [(65536, 256), (1000, 7), (1000, 999), (5, 5), (5, 0)] {
-            let rays = spread(end, count);
+            let rays = spread(end, count, 0);
             assert_eq!(rays.len(), count);
             assert!(rays.iter().enumerate().all(|(i, ray)| (i * end / count..(i + 1) * end / count).contains(ray)));
         }
-        let columns: std::collections::HashSet<_> = spread(65536, 256).iter().map(|ray| ray % 256).collect();
+        let columns: std::collections::HashSet<_> = spread(65536, 256, 0).iter().map(|ray| ray % 256).collect();
         assert!(columns.len() > 128, "{} of 256 columns", columns.len());
     }
 

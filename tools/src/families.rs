@@ -1,9 +1,9 @@
 //! Families of inputs that are known to break renderers, and a generic one.
 
+use crate::draw::{Draw, EPS};
 use airlight::oracle::Scene;
 use airlight::{Emitter, Emitters, Error, FARTHEST, Media, Medium, Ray, Rays};
 use glam::{DVec3, Vec3};
-use std::f32::consts::PI;
 use std::fmt;
 use std::str::FromStr;
 
@@ -109,9 +109,6 @@ impl FromStr for Family {
         Self::ALL.into_iter().find(|family| family.name() == name).ok_or_else(|| UnknownFamily(name.to_owned()))
     }
 }
-
-/// 2^-24.
-const EPS: f32 = f32::EPSILON / 2.0;
 
 /// One ray with its emitter, medium and variate, as raw as columns are.
 #[derive(Clone, Copy, Debug)]
@@ -391,51 +388,5 @@ impl Columns {
     #[must_use]
     pub fn media(&self) -> Media<'_> {
         Media::Each { mu_a: &self.mu_a, mu_s: &self.mu_s, g: &self.g }
-    }
-}
-
-/// Random numbers of one case: a hash of seed, family and index, then a SplitMix64 sequence from there.
-struct Draw(u64);
-
-impl Draw {
-    fn new(seed: u64, family: u64, index: u64) -> Self {
-        let mut draw = Self(seed.wrapping_mul(0xd134_2543_de82_ef95) ^ family.wrapping_shl(56));
-        let key = draw.next();
-        Self(key ^ index.wrapping_mul(0x9e6c_63d0_76cc_4955))
-    }
-
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    fn below(&mut self, n: u64) -> u64 {
-        self.next() % n
-    }
-
-    fn pick(&mut self, values: &[f32]) -> f32 {
-        values[self.below(values.len() as u64) as usize]
-    }
-
-    /// A multiple of 2^-24 in `[0, 1)`.
-    fn uniform(&mut self) -> f32 {
-        (self.next() >> 40) as f32 * EPS
-    }
-
-    fn between(&mut self, a: f32, b: f32) -> f32 {
-        a + (b - a) * self.uniform()
-    }
-
-    fn log_between(&mut self, a: f32, b: f32) -> f32 {
-        self.between(a.ln(), b.ln()).exp()
-    }
-
-    fn direction(&mut self) -> Vec3 {
-        let z = self.between(-1.0, 1.0);
-        let (sin, cos) = self.between(-PI, PI).sin_cos();
-        let s = (1.0 - z * z).sqrt();
-        Vec3::new(s * cos, s * sin, z).normalize()
     }
 }

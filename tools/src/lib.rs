@@ -1,5 +1,10 @@
-//! What measures airlight: families of hard inputs, and the errors of the kernels on them.
+//! What measures airlight: families of hard inputs and the errors of the kernels on them, sets of scenes and the
+//! variances of the densities on them.
 
+pub mod adversary;
 pub mod bounds;
+pub mod contender;
+mod draw;
 pub mod errors;
 pub mod families;
+pub mod scenes;

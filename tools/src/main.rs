@@ -12,6 +12,7 @@ mod progress;
 mod sample;
 mod strata;
 mod table;
+mod variance;
 mod variates;
 mod wavefront;
 
@@ -36,6 +37,7 @@ struct Cli {
 enum Command {
     Sample(sample::Args),
     Accuracy(accuracy::Args),
+    Variance(variance::Args),
 }
 
 fn main() -> ExitCode {
@@ -52,6 +54,7 @@ fn main() -> ExitCode {
     let done = match command {
         Command::Sample(args) => sample::run(&args).map(|()| ExitCode::SUCCESS),
         Command::Accuracy(args) => accuracy::run(&args),
+        Command::Variance(args) => variance::run(&args).map(|()| ExitCode::SUCCESS),
     };
     match done {
         Ok(code) => code,

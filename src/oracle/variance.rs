@@ -1,0 +1,138 @@
+//! How far single samples stray: relative variances, by quadrature.
+
+use super::angular::{Angular, Shape, Taylor};
+use super::arc::{Angle, Arc};
+use super::density::Density;
+use super::product::Product;
+use super::quadrature::integrate_pieces;
+use super::scene::{Scene, phase};
+use super::warp::{Variable, Warp};
+use crate::Strategy;
+
+/// To which the integrals are refined, relative to themselves; they come out far closer.
+const TOLERANCE: f64 = 1e-8;
+
+/// Relative variances, of the one-sample estimator of the [`radiance`](Scene::radiance) by distances from a density:
+/// `V = Int f^2/p / (Int f)^2 - 1`, 0 where the density is proportional to the integrand.
+///
+/// None where nothing is [lit](Scene::lit). Infinite where the density is 0 and the integrand is not, NaN if either is
+/// no number.
+impl Scene {
+    /// That of a strategy.
+    #[must_use]
+    pub fn relative_variance(&self, strategy: Strategy) -> Option<f64> {
+        let (density, ..) = self.density(strategy)?;
+        let over_angle = |place: &Place| match &density {
+            // dt/dtheta = r^2/h
+            Density::Distance(exponential) => exponential.pdf(place.t) * self.h / place.cos_theta.powi(2),
+            Density::Angle(angular) => angular.pdf_at(place.angle),
+            Density::HalfAngle(product) => product.pdf_at(place.at),
+        };
+        self.variance_of(over_angle, &density.kinks())
+    }
+
+    /// That of the best sampler of the paper, for reference: the density of [`Strategy::TaylorPhase`], whose variate is
+    /// in turn drawn from a quadratic Bezier curve that stands for the transmittance.
+    ///
+    /// The control values of the curve are the transmittances of the distances for the variates 0, 1/2 and 1.
+    #[must_use]
+    pub fn relative_variance_of_paper_best(&self) -> Option<f64> {
+        let arc = self.arc?;
+        let phase = Angular::new(arc, Shape::Taylor(Taylor::phase(self.g)));
+        let transmittance = |t: f64| (-self.mu_t * (t - arc.t_a + self.r(t) - self.r(arc.t_a))).exp();
+        let [c0, c1, c2] = [arc.t_a, phase.invert(0.5), arc.t_b].map(transmittance);
+        let bezier = |u: f64| (1.0 - u).powi(2) * c0 + 2.0 * u * (1.0 - u) * c1 + u * u * c2;
+        let over_angle =
+            |place: &Place| phase.pdf_at(place.angle) * bezier(phase.cdf_at(place.angle)) * 3.0 / (c0 + c1 + c2);
+        self.variance_of(over_angle, phase.kink().as_slice())
+    }
+
+    /// That of a density over `theta` \[1/rad\] with kinks at some distances \[m\].
+    ///
+    /// The quadrature runs over the variable of the product densities, in which the integrand has no narrow features:
+    /// what others make of it, their densities may.
+    fn variance_of(&self, density: impl Fn(&Place) -> f64, kinks: &[f64]) -> Option<f64> {
+        let arc = self.arc?;
+        let product = Product::new(self, arc, 17);
+        let warp = product.warp();
+        let integrand = |place: &Place| {
+            // relative to the start of the lit part
+            let transmittance = (-self.mu_t * warp.y(place.at)).exp();
+            transmittance * phase(self.g, &arc, place.angle) * arc.cosine(place.angle)
+        };
+        let mut ends: Vec<f64> = product.knots().chain(kinks.iter().map(|&t| warp.at(t).v)).collect();
+        ends.extend([1e-6, 1e-4, 1e-2].into_iter().flat_map(|v| [v, 1.0 - v]));
+        ends.sort_by(f64::total_cmp);
+        let integral = |of: &dyn Fn(&Place) -> f64| {
+            let over_v = |v: f64| {
+                let place = Place::new(warp, &arc, v);
+                of(&place) * place.slope
+            };
+            integrate_pieces(over_v, &ends, TOLERANCE)
+        };
+        let first = integral(&integrand);
+        let second = integral(&|place| {
+            let f = integrand(place);
+            if f == 0.0 { 0.0 } else { f / first * (f / first / density(place)) }
+        });
+        Some(second - 1.0)
+    }
+}
+
+/// A node of the quadrature.
+struct Place {
+    at: Variable,
+    angle: Angle,
+    cos_theta: f64,
+    t: f64,
+    /// `dtheta/dv`.
+    slope: f64,
+}
+
+impl Place {
+    fn new(warp: &Warp, arc: &Arc, v: f64) -> Self {
+        let at = Variable::new(v);
+        let angle = warp.angle(at);
+        Self { at, angle, cos_theta: arc.cos_theta(angle), t: warp.t(at), slope: warp.slope(at) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::arbitrary::{config, scene};
+    use super::super::quadrature::integrate;
+    use super::*;
+    use proptest::{prop_assert, proptest};
+
+    proptest! {
+        #![proptest_config(config(64))]
+
+        /// Over the strategy's own variate, on which the density is 1: `f/p = w`, `V = Int w^2 / (Int w)^2 - 1`.
+        #[test]
+        fn it_is_the_variance_over_the_variate(scene in scene()) {
+            for strategy in Strategy::ALL {
+                let Some(variance) = scene.relative_variance(strategy) else { continue };
+                // of a heavy tail this variable does not see the peak, nor any digit of next to nothing
+                if !(1e-3..1.0).contains(&variance) {
+                    continue;
+                }
+                let weight = |u: f64| {
+                    let t = scene.invert(strategy, u);
+                    let (f, p) = (scene.integrand(t), scene.pdf(strategy, t));
+                    if f > 0.0 { f / p } else { 0.0 }
+                };
+                let first = integrate(weight, 0.0, 1.0, 1e-7);
+                let second = integrate(|u| (weight(u) / first).powi(2), 0.0, 1.0, 1e-7);
+                prop_assert!((second - 1.0 - variance).abs() < 1e-3 * variance, "{strategy}: {variance} is not {}", second - 1.0);
+            }
+        }
+
+        #[test]
+        fn more_knots_leave_less(scene in scene()) {
+            if let Some(of_five) = scene.relative_variance(Strategy::Product5) {
+                let of_seventeen = scene.relative_variance(Strategy::Product17).unwrap();
+                prop_assert!(of_seventeen < 0.02 && of_five < 0.5, "{of_five} and {of_seventeen}");
+            }
+        }
+    }
+}

@@ -1,0 +1,62 @@
+//! What is compared: the strategies, and the best that the paper has.
+
+use airlight::Strategy;
+use airlight::oracle::Scene;
+use std::fmt;
+use std::str::FromStr;
+
+/// A density whose variance is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Contender {
+    /// One that can be sampled.
+    Strategy(Strategy),
+    /// The Taylor density of the phase function times `N`, with a quadratic Bezier warp for the transmittance: for
+    /// reference, in the oracle alone.
+    PaperBest,
+}
+
+impl Contender {
+    /// All of them.
+    #[must_use]
+    pub fn all() -> Vec<Self> {
+        Strategy::ALL.into_iter().map(Self::Strategy).chain([Self::PaperBest]).collect()
+    }
+
+    /// Its name on the command line and in JSON.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Strategy(strategy) => strategy.name(),
+            Self::PaperBest => "paper-best",
+        }
+    }
+
+    /// Its relative variance, if anything is lit.
+    #[must_use]
+    pub fn variance(self, scene: &Scene) -> Option<f64> {
+        match self {
+            Self::Strategy(strategy) => scene.relative_variance(strategy),
+            Self::PaperBest => scene.relative_variance_of_paper_best(),
+        }
+    }
+}
+
+/// The name of none.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct UnknownContender(String);
+
+impl fmt::Display for UnknownContender {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let names: Vec<&str> = Contender::all().into_iter().map(Contender::name).collect();
+        write!(f, "no strategy is called '{}'; there are {}", self.0, names.join(", "))
+    }
+}
+
+impl std::error::Error for UnknownContender {}
+
+impl FromStr for Contender {
+    type Err = UnknownContender;
+    fn from_str(name: &str) -> Result<Self, UnknownContender> {
+        Self::all().into_iter().find(|c| c.name() == name).ok_or_else(|| UnknownContender(name.to_owned()))
+    }
+}

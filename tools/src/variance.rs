@@ -1,0 +1,87 @@
+//! `airlight variance`: how far single samples stray with every density, by quadrature.
+
+mod adversarial;
+mod figures;
+mod source;
+
+use self::figures::{Figures, Row};
+use self::source::Source;
+use crate::arguments::{self, Json};
+use crate::{output, progress};
+use airlight::{Medium, Strategy};
+use airlight_tools::contender::Contender;
+use anyhow::Result;
+use rayon::prelude::*;
+
+/// Scenes of a set, unless told otherwise.
+const SCENES: usize = 2000;
+/// Climbs of the search, unless told otherwise.
+const CLIMBS: usize = 256;
+
+/// Compare the relative variances of all densities, by quadrature, on a set of scenes
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// Scenes: broad, tame, canonical, or the rays of a wavefront
+    #[arg(long, value_name = "NAME|FILE.npz", default_value = "broad", conflicts_with = "adversarial")]
+    set: Source,
+    /// Medium of the rays of a wavefront: absorption and scattering coefficient [1/m] and mean cosine
+    #[arg(long, value_name = "MU_A,MU_S,G", default_value = "0.1,0.3,0.6", allow_hyphen_values = true)]
+    #[arg(value_parser = arguments::medium, conflicts_with = "adversarial")]
+    medium: Medium,
+    /// Scenes of the set, or climbs of the search [default: 2000, or 256]
+    #[arg(long, value_name = "SCENES", value_parser = arguments::positive)]
+    scenes: Option<usize>,
+    /// Seed of the scenes
+    #[arg(long, default_value_t = 0)]
+    seed: u64,
+    #[arg(long, value_name = "NAME", help = format!("Density to measure, may be repeated [default: all of {}]", names()))]
+    strategy: Vec<Contender>,
+    /// Search for the scenes on which the product densities do worst, by climbing from random ones
+    #[arg(long)]
+    adversarial: bool,
+    #[command(flatten)]
+    json: Json,
+}
+
+/// Runs the comparison, or the search.
+pub(crate) fn run(args: &Args) -> Result<()> {
+    let json = args.json.target()?;
+    if args.adversarial {
+        return output::report(&adversarial::search(args)?, json.as_ref());
+    }
+    let contenders = args.contenders(Contender::all());
+    let sets = args.set.scenes(&args.medium, args.seed, args.scenes.unwrap_or(SCENES))?;
+
+    let scenes: usize = sets.iter().map(|(_, scenes)| scenes.len()).sum();
+    let progress = progress::bar(scenes.saturating_mul(contenders.len()))?;
+    let mut rows = Vec::new();
+    for (name, scenes) in &sets {
+        for &contender in &contenders {
+            progress.set_message(format!("{name} {}", contender.name()));
+            let variance = |scene| {
+                let variance = contender.variance(scene);
+                progress.inc(1);
+                variance
+            };
+            rows.push(Row::new(contender, name, scenes.par_iter().filter_map(variance).collect()));
+        }
+    }
+    progress.finish_and_clear();
+    output::report(&Figures(rows), json.as_ref())
+}
+
+impl Args {
+    /// Those asked for, or else `all`.
+    fn contenders(&self, all: Vec<Contender>) -> Vec<Contender> {
+        if self.strategy.is_empty() { all } else { self.strategy.clone() }
+    }
+}
+
+fn names() -> String {
+    Contender::all().into_iter().map(Contender::name).collect::<Vec<_>>().join(", ")
+}
+
+/// The product densities.
+fn products() -> Vec<Contender> {
+    [Strategy::Product3, Strategy::Product5, Strategy::Product9, Strategy::Product17].map(Contender::Strategy).into()
+}

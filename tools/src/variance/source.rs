@@ -1,0 +1,52 @@
+//! Where the scenes come from.
+
+use crate::check::spread;
+use crate::wavefront::Wavefront;
+use airlight::Medium;
+use airlight::oracle::Scene;
+use airlight_tools::scenes::Set;
+use anyhow::{Result, ensure};
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+/// Named sets, or a wavefront file.
+#[derive(Clone, Debug)]
+pub(super) enum Source {
+    Sets(Vec<Set>),
+    File(PathBuf),
+}
+
+impl FromStr for Source {
+    type Err = String;
+    fn from_str(name: &str) -> Result<Self, String> {
+        let path = Path::new(name);
+        match Set::named(name) {
+            Some(sets) => Ok(Self::Sets(sets)),
+            None if path.extension().is_some_and(|extension| extension == "npz") || path.exists() => {
+                Ok(Self::File(path.to_owned()))
+            }
+            None => Err(format!(
+                "no set is called '{name}'; there are broad, tame, canonical, and any FILE.npz of a wavefront"
+            )),
+        }
+    }
+}
+
+impl Source {
+    /// Every set's name and its `count` scenes; of a wavefront at most that many of its rays, spread over it, in
+    /// `medium`, less those that are not lit.
+    pub(super) fn scenes(&self, medium: &Medium, seed: u64, count: usize) -> Result<Vec<(String, Vec<Scene>)>> {
+        match self {
+            Self::Sets(sets) => Ok(sets.iter().map(|set| (set.name().to_owned(), set.scenes(seed, count))).collect()),
+            Self::File(path) => {
+                let wavefront = Wavefront::read(path)?;
+                let scene = |i| Some(Scene::new(&wavefront.ray(i).ok()?, &wavefront.emitter(i).ok()?, medium));
+                let rays = spread(wavefront.len(), count.min(wavefront.len()), seed);
+                let scenes: Vec<Scene> =
+                    rays.into_iter().filter_map(scene).filter(|scene| scene.lit().is_some()).collect();
+                ensure!(!scenes.is_empty(), "{}: none of the rays is lit", wavefront.name);
+                Ok(vec![(wavefront.name, scenes)])
+            }
+        }
+    }
+}
