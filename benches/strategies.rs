@@ -84,7 +84,7 @@ fn strategies(criterion: &mut Criterion) {
     let medium = Medium::new(0.5, 0.2, 0.6).expect("a medium");
     let (emitters, media) = (Emitters::One(emitter), Media::One(medium));
 
-    for strategy in Strategy::ALL {
+    for &strategy in Strategy::ALL {
         let sampler = Sampler::new(strategy);
         let mut group = criterion.benchmark_group(strategy.name());
         for n in [1 << 12, 1 << 16, LARGEST] {

@@ -10,7 +10,8 @@ use core::ops::Range;
 /// A batch of rays as a structure of arrays; every column has the length of the batch and any alignment.
 ///
 /// The values mean what they mean in [`Ray::new`](crate::Ray::new). A ray whose values are out of range there is
-/// *invalid*: it is counted, and what is written for it is zero.
+/// *invalid*: it is counted, and what is written for it is zero. (Lengths of directions and normals are held to the
+/// tolerance by their squares, with a slack of 1e-6.)
 #[derive(Clone, Copy, Debug)]
 pub struct Rays<'a> {
     /// Where the rays start, x, y, z \[m\].
@@ -32,7 +33,8 @@ pub enum Emitters<'a> {
     Each {
         /// Positions, x, y, z \[m\].
         position: [&'a [f32]; 3],
-        /// Unit normals, x, y, z; the normal (0, 0, 0) stands for a point emitter.
+        /// Unit normals, x, y, z; the normal (0, 0, 0) stands for a point emitter. Within the tolerance the length of a
+        /// normal scales the cosine.
         normal: [&'a [f32]; 3],
     },
 }
@@ -80,7 +82,7 @@ pub struct Counts {
     pub empty: usize,
     /// Rays with a value that is NaN or out of range.
     pub invalid: usize,
-    /// Sampled rays whose Newton iteration fell back to bisection at least once.
+    /// Sampled rays whose Newton iteration fell back to bisection at least once, or took more than 8 steps.
     pub bisected: usize,
 }
 

@@ -2,7 +2,7 @@
 
 use crate::geometry::{Geometry, Point};
 use crate::integrand::MediumLanes;
-use crate::simd::{Isa, Lanes};
+use crate::simd::Isa;
 
 /// A density over the distances of a lane group of rays, set up for one geometry and medium.
 pub(crate) trait Density<I: Isa>: Sized {
@@ -14,12 +14,6 @@ pub(crate) trait Density<I: Isa>: Sized {
 
     /// The density at a point of the support.
     fn pdf(&self, isa: I, geometry: &Geometry<I>, point: &Point<I>) -> Pdf<I>;
-
-    /// The integral of the integrand as the density has it, where it is made of the whole integrand.
-    #[inline(always)]
-    fn radiance(&self, _: I, _: &Geometry<I>, _: &MediumLanes<I>) -> Option<I::V> {
-        None
-    }
 
     /// The distances `[low, high]` that are sampled \[m\].
     #[inline(always)]
@@ -57,10 +51,4 @@ impl<I: Isa> Pdf<I> {
     pub(crate) fn over_distance(over_t: I::V, r: I::V) -> Self {
         Self { over_t, times_r2: over_t * (r * r) }
     }
-}
-
-/// No lane.
-#[inline(always)]
-pub(crate) fn none<I: Isa>(isa: I) -> I::Mask {
-    isa.splat(1.0).lt(isa.splat(0.0))
 }

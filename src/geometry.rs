@@ -88,10 +88,10 @@ impl<I: Isa> Geometry<I> {
     #[inline(always)]
     pub(crate) fn new(isa: I, ray: &RayLanes<I>, emitter: &EmitterLanes<I>) -> Self {
         let c = |x| isa.splat(x);
-        let d = ray.direction.map(I::V::widen);
-        let n = emitter.normal.map(I::V::widen);
-        let [e0, e1, e2] = [0, 1, 2].map(|k| emitter.position[k].widen() - ray.origin[k].widen());
-        let e = [e0, e1, e2];
+        let d = widen::<I>(ray.direction);
+        let n = widen::<I>(emitter.normal);
+        let (y, o) = (widen::<I>(emitter.position), widen::<I>(ray.origin));
+        let e = [y[0] - o[0], y[1] - o[1], y[2] - o[2]];
 
         // 1/|d| by its series about |d| = 1: distances are in metres also where d is not quite a unit vector.
         let q = dot(d, d) - isa.splat_double(1.0);
@@ -102,13 +102,13 @@ impl<I: Isa> Geometry<I> {
         let t_h = dot(e, d) * unit;
         let beta = dot(n, d) * unit;
         let along = t_h * unit;
-        let foot = [0, 1, 2].map(|k| along.mul_add(d[k], -e[k]));
+        let foot = [along.mul_add(d[0], -e[0]), along.mul_add(d[1], -e[1]), along.mul_add(d[2], -e[2])];
         let alpha_h = dot(n, foot);
 
         let t_max = ray.t_max.min(c(FARTHEST));
         let t_prime_min = ray.t_min.widen() - t_h;
         let t_prime_max = t_max.widen() - t_h;
-        let [ta, tb] = [t_prime_min, t_prime_max].map(I::V::narrow);
+        let (ta, tb) = (I::V::narrow(t_prime_min), I::V::narrow(t_prime_max));
         let scale = ta.abs().max(I::V::narrow(t_h).abs());
         let least = (scale * c(1e-9)).max(c(1e-18)).widen();
         let h_squared = dot(foot, foot).max(least * least);
@@ -160,9 +160,9 @@ impl<I: Isa> Geometry<I> {
             & (obtuse | (rr * c(1e-25)).lt(subtends * (a.n + b.n)));
         let nn = I::V::narrow(dot(n, n) - isa.splat_double(1.0));
         let tolerance = c(2.001 * UNIT_TOLERANCE);
-        let [x, y, z] = [0, 1, 2].map(|k| ray.origin[k].abs().max(emitter.position[k].abs()));
+        let farthest = largest::<I>(ray.origin).max(largest::<I>(emitter.position));
         let valid = I::V::narrow(q).abs().le(tolerance)
-            & x.max(y).max(z).le(c(FARTHEST))
+            & farthest.le(c(FARTHEST))
             & (nn.abs().le(tolerance) | normal_size.eq(c(0.0)))
             & c(0.0).le(ray.t_min)
             & ray.t_min.le(c(FARTHEST))
@@ -172,7 +172,7 @@ impl<I: Isa> Geometry<I> {
 
         Self {
             h,
-            alpha: (I::V::narrow(alpha_h) / h).max(c(-1.0)).min(c(1.0)),
+            alpha: I::V::narrow(alpha_h) / h,
             beta,
             a,
             b,
@@ -322,6 +322,18 @@ impl<I: Isa> Geometry<I> {
         let step = residual * isa.splat(0.5) / point.r;
         (t_prime - self.t_prime_min) + (r + step.widen())
     }
+}
+
+// Spelt out, as all of the kernels: a closure that is not inlined is a call, and a call costs more than the kernel.
+#[inline(always)]
+fn widen<I: Isa>([x, y, z]: [I::V; 3]) -> [I::Double; 3] {
+    [x.widen(), y.widen(), z.widen()]
+}
+
+/// The size of the largest component.
+#[inline(always)]
+fn largest<I: Isa>([x, y, z]: [I::V; 3]) -> I::V {
+    x.abs().max(y.abs()).max(z.abs())
 }
 
 #[inline(always)]

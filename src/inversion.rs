@@ -1,6 +1,6 @@
 //! Newton's method inside a shrinking bracket, with bisection where a step leaves it.
 
-use crate::simd::{Isa, Lanes};
+use crate::simd::{Isa, Lanes, none};
 
 /// Steps of Newton's method that a lane may take before it counts as bisected.
 const NEWTON_STEPS: usize = 8;
@@ -29,7 +29,7 @@ pub(crate) fn solve<I: Isa>(
     wanted: I::Mask,
 ) -> Root<I> {
     let (mut low, mut high, mut x) = (low, high, start);
-    let mut bisected = !(wanted | !wanted);
+    let mut bisected = none(isa);
     let mut active = wanted;
     for step in 0..STEPS {
         let (value, slope) = f(x);

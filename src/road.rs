@@ -5,10 +5,10 @@
 
 use crate::Strategy;
 use crate::batch::{Counts, Inputs, Outputs, Samples, Turn};
-use crate::density::{Density, none};
+use crate::density::Density;
 use crate::geometry::Geometry;
 use crate::integrand::{MediumLanes, integrand_r2};
-use crate::simd::{Backend, Isa, Kernel, Lanes};
+use crate::simd::{Backend, Isa, Kernel, Lanes, MOST_LANES, none};
 use crate::strategy::Taylor;
 use crate::strategy::equi_angular::EquiAngular;
 use crate::strategy::point_normal::PointNormal;
@@ -18,7 +18,7 @@ use crate::strategy::taylor_transmittance::OfTransmittance;
 use crate::strategy::transmittance::Transmittance;
 use core::ops::Range;
 
-/// Rays per chunk: some 17 columns of this many stay within 256 KiB.
+/// Values per chunk: up to 22 columns of this many are 352 KiB, which stay in a core's cache.
 const CHUNK: usize = 4096;
 
 /// What a call does with every ray.
@@ -31,17 +31,40 @@ pub(crate) trait Task {
         inputs.per_ray
     }
 
-    /// Takes one chunk the whole way, with the density `D`.
+    /// Takes one chunk the whole way.
+    fn run<I: Isa>(isa: I, strategy: Strategy, inputs: &Inputs<'_>, out: Self::Out<'_>) -> Counts;
+}
+
+/// A task for which every density has a kernel of its own.
+trait OfDensity: Task {
     fn chunk<I: Isa, D: Density<I>>(isa: I, inputs: &Inputs<'_>, out: Self::Out<'_>) -> Counts;
+}
+
+/// Chooses the kernel.
+#[inline(always)]
+fn by_strategy<I: Isa, T: OfDensity>(isa: I, strategy: Strategy, inputs: &Inputs<'_>, out: T::Out<'_>) -> Counts {
+    match strategy {
+        Strategy::Transmittance => T::chunk::<I, Transmittance<I>>(isa, inputs, out),
+        Strategy::EquiAngular => T::chunk::<I, EquiAngular<I>>(isa, inputs, out),
+        Strategy::PointNormal => T::chunk::<I, PointNormal<I>>(isa, inputs, out),
+        Strategy::TaylorTransmittance => T::chunk::<I, Taylor<I, OfTransmittance>>(isa, inputs, out),
+        Strategy::TaylorPhase => T::chunk::<I, Taylor<I, OfPhase>>(isa, inputs, out),
+        Strategy::Product3 => T::chunk::<I, Product<I, 3>>(isa, inputs, out),
+        Strategy::Product5 => T::chunk::<I, Product<I, 5>>(isa, inputs, out),
+        Strategy::Product9 => T::chunk::<I, Product<I, 9>>(isa, inputs, out),
+        Strategy::Product17 => T::chunk::<I, Product<I, 17>>(isa, inputs, out),
+    }
 }
 
 /// Takes a batch the whole way, its chunks spread over the threads.
 pub(crate) fn travel<T: Task>(backend: Backend, strategy: Strategy, inputs: &Inputs<'_>, out: T::Out<'_>) -> Counts {
-    if inputs.len() <= CHUNK {
+    // Whole lane groups, however many values a ray has.
+    let chunk = (CHUNK / inputs.per_ray.max(1)).next_multiple_of(MOST_LANES).max(MOST_LANES);
+    if inputs.len() <= chunk {
         return backend.run(Chunk::<T> { strategy, inputs, out });
     }
     // Halves of whole chunks, so that a chunk is cut short at the end of the batch alone.
-    let half = inputs.len().div_ceil(CHUNK).div_ceil(2) * CHUNK;
+    let half = inputs.len().div_ceil(chunk).div_ceil(2) * chunk;
     let (out_low, out_high) = out.split_at(half * T::values_per_ray(inputs));
     let low = || travel::<T>(backend, strategy, &inputs.slice(0..half), out_low);
     let high = || travel::<T>(backend, strategy, &inputs.slice(half..inputs.len()), out_high);
@@ -52,7 +75,7 @@ pub(crate) fn travel<T: Task>(backend: Backend, strategy: Strategy, inputs: &Inp
     low + high
 }
 
-/// One chunk on its way to the kernel of its strategy.
+/// One chunk on its way to its kernel.
 struct Chunk<'i, 'o, T: Task> {
     strategy: Strategy,
     inputs: &'i Inputs<'i>,
@@ -64,18 +87,7 @@ impl<T: Task> Kernel for Chunk<'_, '_, T> {
 
     #[inline(always)]
     fn run<I: Isa>(self, isa: I) -> Counts {
-        let Self { strategy, inputs, out } = self;
-        match strategy {
-            Strategy::Transmittance => T::chunk::<I, Transmittance<I>>(isa, inputs, out),
-            Strategy::EquiAngular => T::chunk::<I, EquiAngular<I>>(isa, inputs, out),
-            Strategy::PointNormal => T::chunk::<I, PointNormal<I>>(isa, inputs, out),
-            Strategy::TaylorTransmittance => T::chunk::<I, Taylor<I, OfTransmittance>>(isa, inputs, out),
-            Strategy::TaylorPhase => T::chunk::<I, Taylor<I, OfPhase>>(isa, inputs, out),
-            Strategy::Product3 => T::chunk::<I, Product<I, 3>>(isa, inputs, out),
-            Strategy::Product5 => T::chunk::<I, Product<I, 5>>(isa, inputs, out),
-            Strategy::Product9 => T::chunk::<I, Product<I, 9>>(isa, inputs, out),
-            Strategy::Product17 => T::chunk::<I, Product<I, 17>>(isa, inputs, out),
-        }
+        T::run(isa, self.strategy, self.inputs, self.out)
     }
 }
 
@@ -88,7 +100,7 @@ struct Group<I: Isa> {
 }
 
 impl<I: Isa> Group<I> {
-    /// Which lanes are rays at all, and which of those have something to sample.
+    /// Which lanes are rays with a medium.
     #[inline(always)]
     fn valid(&self) -> I::Mask {
         self.geometry.valid & self.medium.valid
@@ -148,6 +160,13 @@ impl Task for Sample {
     type Out<'a> = Samples<'a>;
 
     #[inline(always)]
+    fn run<I: Isa>(isa: I, strategy: Strategy, inputs: &Inputs<'_>, out: Samples<'_>) -> Counts {
+        by_strategy::<I, Self>(isa, strategy, inputs, out)
+    }
+}
+
+impl OfDensity for Sample {
+    #[inline(always)]
     fn chunk<I: Isa, D: Density<I>>(isa: I, inputs: &Inputs<'_>, mut out: Samples<'_>) -> Counts {
         let zero = isa.splat(0.0);
         for_each_group(
@@ -191,6 +210,13 @@ impl Task for Pdf {
     type Out<'a> = &'a mut [f32];
 
     #[inline(always)]
+    fn run<I: Isa>(isa: I, strategy: Strategy, inputs: &Inputs<'_>, out: &mut [f32]) -> Counts {
+        by_strategy::<I, Self>(isa, strategy, inputs, out)
+    }
+}
+
+impl OfDensity for Pdf {
+    #[inline(always)]
     fn chunk<I: Isa, D: Density<I>>(isa: I, inputs: &Inputs<'_>, out: &mut [f32]) -> Counts {
         let zero = isa.splat(0.0);
         for_each_group(
@@ -226,7 +252,7 @@ impl Task for Evaluate {
     type Out<'a> = &'a mut [f32];
 
     #[inline(always)]
-    fn chunk<I: Isa, D: Density<I>>(isa: I, inputs: &Inputs<'_>, out: &mut [f32]) -> Counts {
+    fn run<I: Isa>(isa: I, _: Strategy, inputs: &Inputs<'_>, out: &mut [f32]) -> Counts {
         let zero = isa.splat(0.0);
         for_each_group(
             isa,
@@ -253,7 +279,7 @@ impl Task for Evaluate {
     }
 }
 
-/// What the density's own normalisation says of the integral.
+/// What the density's own normalisation says of the integral; 0 for a density that has none.
 pub(crate) struct Radiance;
 
 impl Task for Radiance {
@@ -264,20 +290,31 @@ impl Task for Radiance {
     }
 
     #[inline(always)]
-    fn chunk<I: Isa, D: Density<I>>(isa: I, inputs: &Inputs<'_>, out: &mut [f32]) -> Counts {
-        let zero = isa.splat(0.0);
-        for_each_group(
-            isa,
-            inputs,
-            #[inline(always)]
-            |group| {
-                let Group { geometry, medium, range } = &group;
-                let sampled = group.valid() & geometry.lit;
-                let radiance = D::new(isa, geometry, medium).radiance(isa, geometry, medium).unwrap_or(zero);
-                let value = I::V::select(sampled, radiance.min(isa.splat(f32::MAX)), zero);
-                Turn { index: 0, per_ray: 1 }.store(value, out, range);
-                group.count(group.valid(), none(isa))
-            },
-        )
+    fn run<I: Isa>(isa: I, strategy: Strategy, inputs: &Inputs<'_>, out: &mut [f32]) -> Counts {
+        match strategy {
+            Strategy::Product3 => radiance::<I, 3>(isa, inputs, out),
+            Strategy::Product5 => radiance::<I, 5>(isa, inputs, out),
+            Strategy::Product9 => radiance::<I, 9>(isa, inputs, out),
+            Strategy::Product17 => radiance::<I, 17>(isa, inputs, out),
+            _ => Counts::default(),
+        }
     }
+}
+
+#[inline(always)]
+fn radiance<I: Isa, const K: usize>(isa: I, inputs: &Inputs<'_>, out: &mut [f32]) -> Counts {
+    let zero = isa.splat(0.0);
+    for_each_group(
+        isa,
+        inputs,
+        #[inline(always)]
+        |group| {
+            let Group { geometry, medium, range } = &group;
+            let sampled = group.valid() & geometry.lit;
+            let radiance = Product::<I, K>::new(isa, geometry, medium).radiance(isa, geometry, medium);
+            let value = I::V::select(sampled, radiance.min(isa.splat(f32::MAX)), zero);
+            Turn { index: 0, per_ray: 1 }.store(value, out, range);
+            group.count(group.valid(), none(isa))
+        },
+    )
 }

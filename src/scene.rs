@@ -77,7 +77,8 @@ impl Emitter {
         Ok(Self { position, normal: None })
     }
 
-    /// A point of a surface with the unit normal `normal`; it shines to the side of its normal alone.
+    /// A point of a surface with the unit normal `normal`; it shines to the side of its normal alone. Within the
+    /// tolerance its length scales the cosine, and with it the weights.
     ///
     /// # Errors
     /// [`Error::Value`] if a coordinate is NaN or larger than [`FARTHEST`] in size, or if the length of the normal is

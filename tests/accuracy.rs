@@ -13,7 +13,7 @@ fn generic_rays_are_within_the_bounds() {
     let mut backends = 0;
     for backend in Backend::available() {
         backends += 1;
-        for strategy in Strategy::ALL {
+        for &strategy in Strategy::ALL {
             let sampler = Sampler::new(strategy).with_backend(backend);
             let errors = Errors::measure(&sampler, Family::Generic, RAYS, 101, |_| ());
             assert!(errors.sampled > RAYS / 2, "{strategy}: {} of {RAYS} rays sampled", errors.sampled);
@@ -29,7 +29,7 @@ fn generic_rays_are_within_the_bounds() {
 
 #[test]
 fn no_strategy_is_far_from_the_floor() {
-    for strategy in Strategy::ALL {
+    for &strategy in Strategy::ALL {
         let errors = Errors::measure(&Sampler::new(strategy), Family::Generic, RAYS, 102, |_| ());
         // The floor is sampled on every 16th ray: its own p99.9 scatters by some tens of percent.
         let (floor, cdf) = (quantile(&errors.cdf_floor, 0.999), quantile(&errors.cdf, 0.999));

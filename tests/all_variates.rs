@@ -5,7 +5,7 @@ use airlight::oracle::Scene;
 use airlight::{Emitter, Emitters, Media, Medium, Ray, Rays, Sampler, Samples, Strategy};
 use glam::Vec3;
 
-/// One variate of every stratum of width 2^-24.
+/// The multiples of 2^-24 below 1.
 const VARIATES: usize = 1 << 24;
 const BATCH: usize = 1 << 20;
 
@@ -43,12 +43,12 @@ fn the_mean_over_all_variates_is_the_radiance() {
         let [zero, one] = [0.0, 1.0].map(column);
         let (t_min, t_max) = (column(ray.t_min()), column(ray.t_max()));
         let rays = Rays { origin: [&zero; 3], direction: [&zero, &zero, &one], t_min: &t_min, t_max: &t_max };
-        for strategy in Strategy::ALL {
+        for &strategy in Strategy::ALL {
             let [mut t, mut pdf, mut weight, mut u] = [(); 4].map(|()| column(0.0));
             let (mut sum, mut largest) = (0.0, 0.0f64);
             for first in (0..VARIATES).step_by(BATCH) {
                 for (i, u) in u.iter_mut().enumerate() {
-                    *u = ((first + i) as f64 + 0.5) as f32 / VARIATES as f32;
+                    *u = (first + i) as f32 / VARIATES as f32;
                 }
                 let mut samples = Samples { t: &mut t, pdf: &mut pdf, weight: Some(&mut weight), r: None };
                 let (emitters, media) = (Emitters::One(emitter), Media::One(medium));

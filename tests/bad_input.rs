@@ -209,7 +209,7 @@ fn with_fields(fields: &[(&str, f32)]) -> Columns {
 
 #[test]
 fn a_bad_ray_is_counted_and_gets_zeros() {
-    for strategy in Strategy::ALL {
+    for &strategy in Strategy::ALL {
         let sampler = Sampler::new(strategy);
         assert_eq!(with_fields(&[]).sample(&sampler).counts.sampled, 1);
         for fields in bad_rays() {
@@ -234,7 +234,7 @@ fn a_ray_without_light_is_empty() {
         &[("emitters.normal[1]", 1.0), ("emitters.position[1]", 1e-3)],
         &[("rays.t_min", 2e6), ("rays.t_max", 2e6)],
     ];
-    for strategy in Strategy::ALL {
+    for &strategy in Strategy::ALL {
         for fields in dark {
             let drawn = with_fields(fields).sample(&Sampler::new(strategy));
             let counts = (drawn.counts.sampled, drawn.counts.empty, drawn.counts.invalid);
@@ -263,7 +263,7 @@ fn random_bits(n: usize) -> Columns {
 fn any_bits_give_numbers() {
     const N: usize = 1 << 20;
     let columns = random_bits(N);
-    for strategy in Strategy::ALL {
+    for &strategy in Strategy::ALL {
         let sampler = Sampler::new(strategy);
         let drawn = columns.sample(&sampler);
         let counts = drawn.counts;
@@ -287,7 +287,7 @@ fn any_bits_give_numbers() {
 fn any_bits_give_densities_and_integrands() {
     const N: usize = 1 << 20;
     let columns = random_bits(N);
-    for strategy in Strategy::ALL {
+    for &strategy in Strategy::ALL {
         let sampler = Sampler::new(strategy);
         for (what, column) in [("pdf", columns.pdf(&sampler)), ("integrand", columns.evaluate(&sampler))] {
             let bad = column.iter().position(|x| !(x.is_finite() && *x >= 0.0));

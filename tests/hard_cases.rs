@@ -12,7 +12,7 @@ fn holds(family: Family) {
     let mut backends = 0;
     for backend in Backend::available() {
         backends += 1;
-        for strategy in Strategy::ALL {
+        for &strategy in Strategy::ALL {
             let sampler = Sampler::new(strategy).with_backend(backend);
             let errors = Errors::measure(&sampler, family, RAYS, 201, |_| ());
             assert!(errors.sampled > RAYS / 40, "{strategy}: {} of {RAYS} rays sampled", errors.sampled);

@@ -28,7 +28,7 @@ fn assert_same<'a>(drawn: &Drawn, expected: impl Fn(usize) -> &'a [u32; 4], plac
 /// `n` random cases, and the bits of each alone, per strategy.
 fn for_each_strategy(n: usize, test: impl Fn(&Sampler, &Columns, &[[u32; 4]])) {
     let columns = Columns::random(&mut Random::new(SEED), n);
-    for strategy in Strategy::ALL {
+    for &strategy in Strategy::ALL {
         let sampler = Sampler::new(strategy);
         test(&sampler, &columns, &alone(&columns, &sampler));
     }
@@ -162,7 +162,7 @@ fn any_choice_of_outputs() {
 #[test]
 fn one_for_all_is_the_same_for_each() {
     let mut random = Random::new(SEED + 3);
-    for strategy in Strategy::ALL {
+    for &strategy in Strategy::ALL {
         let sampler = Sampler::new(strategy);
         for _ in 0..32 {
             let one = random.case();

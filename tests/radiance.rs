@@ -39,7 +39,7 @@ fn the_estimate_is_near_the_radiance() {
 #[test]
 fn other_strategies_have_none() {
     let columns = Columns::new(&[]);
-    for strategy in Strategy::ALL {
+    for &strategy in Strategy::ALL {
         let result = Sampler::new(strategy).radiance(&columns.rays(), &columns.emitters(), &columns.media(), &mut []);
         let expected = Err(Error::Unavailable { field: "radiance", strategy });
         assert_eq!(result, if strategy.has_radiance() { Ok(Counts::default()) } else { expected });

@@ -25,7 +25,7 @@ fn they_are_those_of_one_each() {
     for per_ray in [2, 3, 8] {
         let mut random = Random::new(7);
         let u: Vec<f32> = (0..RAYS * per_ray).map(|_| random.uniform()).collect();
-        for strategy in Strategy::ALL {
+        for &strategy in Strategy::ALL {
             let sampler = Sampler::new(strategy);
             let [mut t, mut pdf, mut weight, mut r, mut pdf_at, mut f] = [(); 6].map(|()| vec![f32::NAN; u.len()]);
             let mut samples = Samples { t: &mut t, pdf: &mut pdf, weight: Some(&mut weight), r: Some(&mut r) };

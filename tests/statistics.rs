@@ -40,7 +40,7 @@ fn for_each(test: impl Fn(&Case, &Scene, Strategy, &Drawn, f64)) {
         let mut random = Random::new(SEED << 32 | i as u64);
         let mut columns = Columns::repeat(case, vec![0.0; samples(i)]);
         columns.0[Columns::GIVEN].fill_with(|| random.uniform());
-        for strategy in Strategy::ALL {
+        for &strategy in Strategy::ALL {
             let drawn = columns.sample(&Sampler::new(strategy));
             assert_eq!(drawn.counts.sampled, samples(i));
             test(case, &case.oracle(), strategy, &drawn, share);

@@ -123,7 +123,7 @@ mod tests {
 
         #[test]
         fn the_inverse_inverts(scene in scene(), u in uniform()) {
-            for strategy in Strategy::ALL {
+            for &strategy in Strategy::ALL {
                 let Some((t_a, t_b)) = scene.lit() else { continue };
                 for u in [u, 1.0 - u] {
                     let t = scene.invert(strategy, u);
@@ -137,7 +137,7 @@ mod tests {
 
         #[test]
         fn outside_there_is_nothing(scene in scene()) {
-            for strategy in Strategy::ALL {
+            for &strategy in Strategy::ALL {
                 let Some(lit) = scene.lit() else {
                     prop_assert!(scene.pdf(strategy, scene.t_min) == 0.0 && scene.invert(strategy, 0.5).is_nan());
                     continue;
@@ -153,7 +153,7 @@ mod tests {
 
         #[test]
         fn the_density_is_the_slope_of_its_distribution(scene in scene(), u in [0f64..=1.0, 0f64..=1.0]) {
-            for strategy in Strategy::ALL {
+            for &strategy in Strategy::ALL {
                 if scene.lit().is_none() {
                     continue;
                 }

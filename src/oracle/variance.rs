@@ -110,7 +110,7 @@ mod tests {
         /// Over the strategy's own variate, on which the density is 1: `f/p = w`, `V = Int w^2 / (Int w)^2 - 1`.
         #[test]
         fn it_is_the_variance_over_the_variate(scene in scene()) {
-            for strategy in Strategy::ALL {
+            for &strategy in Strategy::ALL {
                 let Some(variance) = scene.relative_variance(strategy) else { continue };
                 // of a heavy tail this variable does not see the peak, nor any digit of next to nothing
                 if !(1e-3..1.0).contains(&variance) {

@@ -34,9 +34,9 @@ pub(crate) trait Lanes: Number + Div<Output = Self> {
 
     fn sqrt(self) -> Self;
     fn abs(self) -> Self;
-    /// The smaller one; either where a lane is NaN.
+    /// The smaller one; either or NaN where a lane is NaN.
     fn min(self, o: Self) -> Self;
-    /// The larger one; either where a lane is NaN.
+    /// The larger one; either or NaN where a lane is NaN.
     fn max(self, o: Self) -> Self;
     /// False where a lane is NaN, as are `le` and `eq`.
     fn lt(self, o: Self) -> Self::Mask;
@@ -73,6 +73,12 @@ pub(crate) trait Isa: Copy {
     fn load_padded(self, s: &[f32]) -> Self::V;
 }
 
+/// No lane.
+#[inline(always)]
+pub(crate) fn none<I: Isa>(isa: I) -> I::Mask {
+    isa.splat(1.0).lt(isa.splat(0.0))
+}
+
 /// Code that is written once and run by one of several instruction sets.
 pub(crate) trait Kernel {
     type Output;
@@ -80,10 +86,12 @@ pub(crate) trait Kernel {
     fn run<I: Isa>(self, isa: I) -> Self::Output;
 }
 
-/// An instruction set that this CPU has.
+/// An instruction set that this CPU has: there is no other way to one than [`available`](Self::available).
 #[derive(Clone, Copy, Debug)]
-#[non_exhaustive]
-pub enum Backend {
+pub struct Backend(Kind);
+
+#[derive(Clone, Copy, Debug)]
+enum Kind {
     /// 8 lanes of the crate `wide`, at the target features of the build.
     Portable,
 }
@@ -91,27 +99,27 @@ pub enum Backend {
 impl Backend {
     /// Every backend that this CPU can run, the widest first.
     pub fn available() -> impl Iterator<Item = Self> {
-        [Self::Portable].into_iter()
+        [Self(Kind::Portable)].into_iter()
     }
 
     /// The widest available one.
     #[must_use]
     pub fn detect() -> Self {
-        Self::Portable
+        Self(Kind::Portable)
     }
 
     /// Its name on the command line and in JSON.
     #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Portable => "portable",
+        match self.0 {
+            Kind::Portable => "portable",
         }
     }
 
     /// Runs `kernel` with these instructions on.
     pub(crate) fn run<K: Kernel>(self, kernel: K) -> K::Output {
-        match self {
-            Self::Portable => kernel.run(Portable),
+        match self.0 {
+            Kind::Portable => kernel.run(Portable),
         }
     }
 }

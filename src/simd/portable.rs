@@ -95,14 +95,17 @@ impl Lanes for f32x8 {
     }
     #[inline(always)]
     fn widen(self) -> F64x8 {
-        let [a, b, c, d, e, f, g, h] = self.to_array().map(f64::from);
-        F64x8(f64x4::new([a, b, c, d]), f64x4::new([e, f, g, h]))
+        let [a, b, c, d, e, f, g, h] = self.to_array();
+        F64x8(
+            f64x4::new([f64::from(a), f64::from(b), f64::from(c), f64::from(d)]),
+            f64x4::new([f64::from(e), f64::from(f), f64::from(g), f64::from(h)]),
+        )
     }
     #[inline(always)]
     fn narrow(x: F64x8) -> Self {
         let [a, b, c, d] = x.0.to_array();
         let [e, f, g, h] = x.1.to_array();
-        f32x8::new([a, b, c, d, e, f, g, h].map(|x| x as f32))
+        f32x8::new([a as f32, b as f32, c as f32, d as f32, e as f32, f as f32, g as f32, h as f32])
     }
     #[inline(always)]
     fn store_prefix(self, out: &mut [f32]) {

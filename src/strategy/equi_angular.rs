@@ -1,10 +1,10 @@
 //! `p(theta) = 1/Theta`: uniform in the angle at the emitter, so proportional to `1/r^2`.
 
-use crate::density::{Density, Drawn, Pdf, none};
+use crate::density::{Density, Drawn, Pdf};
 use crate::geometry::{Geometry, Point};
 use crate::integrand::MediumLanes;
 use crate::simd::math::tan;
-use crate::simd::{Isa, Lanes};
+use crate::simd::{Isa, Lanes, none};
 
 pub(crate) struct EquiAngular<I: Isa> {
     /// `Theta` \[rad\].

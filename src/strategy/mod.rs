@@ -39,7 +39,7 @@ pub enum Strategy {
 
 impl Strategy {
     /// All of them, from the simplest on.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: &'static [Self] = &[
         Self::Transmittance,
         Self::EquiAngular,
         Self::PointNormal,
@@ -99,6 +99,6 @@ impl std::error::Error for UnknownStrategy {}
 impl FromStr for Strategy {
     type Err = UnknownStrategy;
     fn from_str(name: &str) -> Result<Self, UnknownStrategy> {
-        Self::ALL.into_iter().find(|s| s.name() == name).ok_or_else(|| UnknownStrategy(name.to_owned()))
+        Self::ALL.iter().copied().find(|s| s.name() == name).ok_or_else(|| UnknownStrategy(name.to_owned()))
     }
 }

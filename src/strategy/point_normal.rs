@@ -3,11 +3,11 @@
 //! With `S = alpha sin theta - beta cos theta`, an antiderivative of N, the CDF from an end is `D = S - S_e` over the
 //! mass `S_b - S_a`, and `N^2 = N_e^2 - D (2 S_e + D)`. The angle from that end has `tan(delta/2) = D / (N + N_e)`.
 
-use crate::density::{Density, Drawn, Pdf, none};
+use crate::density::{Density, Drawn, Pdf};
 use crate::geometry::{Geometry, Point};
 use crate::integrand::MediumLanes;
 use crate::simd::math::tan;
-use crate::simd::{Isa, Lanes, Number};
+use crate::simd::{Isa, Lanes, Number, none};
 
 pub(crate) struct PointNormal<I: Isa> {
     /// `S` at the ends, counted towards the interval.

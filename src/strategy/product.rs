@@ -7,11 +7,11 @@
 //! - `1 + g^2 + 2 g sin theta = (A^2 X^2 + B^2 h^2)/(X^2 + h^2)` with `A = 1 + g`, `B = 1 - g`.
 //! - `Y = X - X_a = Y_c v/(e + 1 - v)`, where `Y_c` is the length over which the integrand changes and `e = Y_c/Y_b`.
 
-use crate::density::{Density, Drawn, Pdf, none};
+use crate::density::{Density, Drawn, Pdf};
 use crate::geometry::{Geometry, Point};
 use crate::integrand::{MediumLanes, transmittance};
 use crate::simd::math::one_minus_exp;
-use crate::simd::{Isa, Lanes, Number};
+use crate::simd::{Isa, Lanes, Number, none};
 
 /// `0.7 x + 0.15 (1 - cos(pi x))` at `x = k/16`; with fewer knots every second, fourth or eighth.
 const KNOTS: [f32; 17] = [
@@ -95,6 +95,15 @@ impl<I: Isa, const K: usize> Product<I, K> {
         (s, below)
     }
 
+    /// The integral of the integrand, as the knots have it \[1/m^2\].
+    #[inline(always)]
+    pub(crate) fn radiance(&self, isa: I, geometry: &Geometry<I>, medium: &MediumLanes<I>) -> I::V {
+        let g = medium.g.max(isa.splat(-MOST_FORWARD)).min(isa.splat(MOST_FORWARD));
+        let phase = (isa.splat(1.0) - g) * (isa.splat(1.0) + g) * isa.splat(0.25 * core::f32::consts::FRAC_1_PI);
+        let start = transmittance(isa, geometry, medium, &geometry.start());
+        medium.mu_s * start * (phase * self.mass)
+    }
+
     /// From a density over `v` where `Y + Y_c = Y_c/s`: `dv/dt = (dv/dY) X/r`.
     #[inline(always)]
     fn pdf_over_v(&self, isa: I, p_v: I::V, s: I::V, x: I::V, r: I::V) -> Pdf<I> {
@@ -170,10 +179,14 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
         // Nothing to go by: uniform in v.
         let usable = c(1e-30).lt(mass) & mass.le(c(1e36));
         let norm = one / mass;
-        let f = f.map(|f| I::V::select(usable, f * norm, one));
+        let mut k = 0;
+        while k < K {
+            f[k] = I::V::select(usable, f[k] * norm, one);
+            k += 1;
+        }
         // f stands for the integrand over v times this.
         let unit = scale * scale * (w_0 / y_c) * I::V::select(g.has_normal, c(4.0) * scale, c(2.0));
-        Self { x_a, x_b, y_c, y_b, e, f, mass: mass * unit }
+        Self { x_a, x_b, y_c, y_b, e, f, mass: I::V::select(usable, mass, c(0.0)) * unit }
     }
 
     #[inline(always)]
@@ -185,7 +198,7 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
         let area = (u - below) / width;
         let root = f_0.mul_add(f_0, (f_1 - f_0) * (area + area)).max(c(0.0)).sqrt();
         // Off the knots, where the density may be 0.
-        let tau = ((area + area) / (f_0 + root)).max(c(1e-7)).min(c(1.0 - f32::EPSILON));
+        let tau = ((area + area) / (f_0 + root).max(c(1e-37))).max(c(1e-7)).min(c(1.0 - f32::EPSILON));
         let v = tau.mul_add(width, v_0);
         let p_v = tau.mul_add(f_1 - f_0, f_0);
 
@@ -218,13 +231,5 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
         let tau = (v - segment.v_0) / segment.width;
         let p_v = tau.mul_add(segment.f_1 - segment.f_0, segment.f_0);
         self.pdf_over_v(isa, p_v, s, x, point.r)
-    }
-
-    #[inline(always)]
-    fn radiance(&self, isa: I, geometry: &Geometry<I>, medium: &MediumLanes<I>) -> Option<I::V> {
-        let g = medium.g.max(isa.splat(-MOST_FORWARD)).min(isa.splat(MOST_FORWARD));
-        let phase = (isa.splat(1.0) - g) * (isa.splat(1.0) + g) * isa.splat(0.25 * core::f32::consts::FRAC_1_PI);
-        let start = transmittance(isa, geometry, medium, &geometry.start());
-        Some(medium.mu_s * start * (phase * self.mass))
     }
 }

@@ -48,6 +48,9 @@ pub(crate) struct Taylor<I: Isa, E> {
     half: I::V,
     /// `P N` on the first piece, in `x`, from degree 0 on.
     product: [I::V; PRODUCT_ORDER + 1],
+    /// Its antiderivative over `x`, and its values at -1, 0 and 1.
+    integral: [I::V; PRODUCT_ORDER + 1],
+    three: [I::V; 3],
     /// N at the ends of the second piece, and its antiderivative counted into it.
     n_c: I::V,
     n_b: I::V,
@@ -100,11 +103,14 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
         let slope_m = I::V::select(g.has_normal, slope_m, c(0.0));
         let wave = I::V::select(g.has_normal, half, c(0.0));
 
-        let product = multiply(isa, shift(p.map(I::V::narrow), middle, half), cosine_series(isa, n_m, slope_m, wave));
+        let product = multiply(isa, shift(narrow::<I>(&p), middle, half), cosine_series(isa, n_m, slope_m, wave));
         let integral = integrate(isa, &product);
         let below = horner_lanes(-one, integral) * -one;
         let above = horner_lanes(one, integral);
         let mass_1 = (above - below) * half;
+
+        let (f_a, f_b) = (horner_lanes(-one, product), horner_lanes(one, product));
+        let three = [f_a.max(c(0.0)), product[0], f_b.max(c(0.0))];
 
         let p_c = I::V::narrow(horner_lanes((middle + half).min(theta_c).widen(), p));
         let rest = subtended - width;
@@ -125,6 +131,8 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
             subtended,
             half,
             product,
+            integral,
+            three,
             n_c,
             n_b,
             s_c,
@@ -147,10 +155,9 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
         let first = target.lt(self.mass_1);
 
         // First piece: the angle from its middle, in units of its half width.
-        let integral = integrate(isa, &self.product);
         let value = target / self.half.max(c(1e-37)) + self.below;
         let scale = self.mass_1 / self.half.max(c(1e-37));
-        let f = |x: I::V| (x.mul_add(horner_lanes(x, integral), -value), horner_lanes(x, self.product));
+        let f = |x: I::V| (x.mul_add(horner_lanes(x, self.integral), -value), horner_lanes(x, self.product));
         let start = self.first_guess(isa, target / self.mass_1);
         let wanted = first & g.lit & g.valid;
         let root = solve(isa, f, [c(-1.0), c(1.0)], start, scale * c(1.2e-7), wanted);
@@ -198,8 +205,7 @@ impl<I: Isa, E> Taylor<I, E> {
     #[inline(always)]
     fn first_guess(&self, isa: I, share: I::V) -> I::V {
         let c = |x| isa.splat(x);
-        let [f_a, f_b] = [c(-1.0), c(1.0)].map(|x| horner_lanes(x, self.product).max(c(0.0)));
-        let f_m = self.product[0];
+        let [f_a, f_m, f_b] = self.three;
         let twice_below = f_a + f_m;
         let twice = share * (twice_below + f_m + f_b);
         let above = twice_below.lt(twice);
@@ -217,6 +223,17 @@ impl<I: Isa, E> Taylor<I, E> {
         let p_theta = p * geometry.cosine(isa, point) / (self.mass_1 + self.mass_2);
         Pdf::over_angle(p_theta, geometry.h, point.r)
     }
+}
+
+#[inline(always)]
+fn narrow<I: Isa>(p: &[I::Double; ORDER + 1]) -> [I::V; ORDER + 1] {
+    let mut q = [I::V::narrow(p[0]); ORDER + 1];
+    let mut k = 1;
+    while k <= ORDER {
+        q[k] = I::V::narrow(p[k]);
+        k += 1;
+    }
+    q
 }
 
 /// The coefficients of `p(middle + half x)`.

@@ -1,11 +1,10 @@
 //! The expansion of the transmittance `exp(-m (tan theta + sec theta))`, `m = mu_t h`, (4)-(11), over its value at 0.
 
 use super::taylor::{Expansion, ORDER};
-use crate::density::none;
 use crate::geometry::Geometry;
 use crate::integrand::MediumLanes;
 use crate::simd::math::{exp, horner_double};
-use crate::simd::{Isa, Lanes};
+use crate::simd::{Isa, Lanes, none};
 
 pub(crate) struct OfTransmittance;
 

@@ -1,10 +1,10 @@
 //! `p(t) = mu_t exp(-mu_t (t - t_min)) / (1 - exp(-mu_t (t_max - t_min)))`: free-flight sampling, cut off at `t_max`.
 
-use crate::density::{Density, Drawn, Pdf, none};
+use crate::density::{Density, Drawn, Pdf};
 use crate::geometry::{Geometry, Point};
 use crate::integrand::MediumLanes;
 use crate::simd::math::{exp, neg_ln_1m, one_minus_exp};
-use crate::simd::{Isa, Lanes, Number};
+use crate::simd::{Isa, Lanes, Number, none};
 
 pub(crate) struct Transmittance<I: Isa> {
     mu_t: I::V,

@@ -40,7 +40,7 @@ fn names() -> String {
 /// Runs the comparison.
 pub(crate) fn run(args: &Args) -> Result<ExitCode> {
     let json = args.json.target()?;
-    let strategies = if args.strategy.is_empty() { &Strategy::ALL[..] } else { &args.strategy };
+    let strategies = if args.strategy.is_empty() { Strategy::ALL } else { &args.strategy };
     let families = if args.family.is_empty() { &Family::ALL[..] } else { &args.family };
     let backends: Vec<Backend> = Backend::available().collect();
 

@@ -19,7 +19,7 @@ impl Contender {
     /// All of them.
     #[must_use]
     pub fn all() -> Vec<Self> {
-        Strategy::ALL.into_iter().map(Self::Strategy).chain([Self::PaperBest]).collect()
+        Strategy::ALL.iter().copied().map(Self::Strategy).chain([Self::PaperBest]).collect()
     }
 
     /// Its name on the command line and in JSON.

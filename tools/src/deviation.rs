@@ -44,7 +44,7 @@ mod tests {
         for emitter in [Emitter::point(position).unwrap(), Emitter::point_normal(position, facing).unwrap()] {
             let scene = Scene::new(&ray, &emitter, &medium);
             let radiance = scene.radiance();
-            for strategy in Strategy::ALL {
+            for &strategy in Strategy::ALL {
                 let deviation = |i| {
                     let t = scene.invert(strategy, (f64::from(i) + 0.5) / f64::from(SAMPLES));
                     scene.integrand(t) / scene.pdf(strategy, t) - radiance

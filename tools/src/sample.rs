@@ -69,7 +69,7 @@ pub(crate) fn run(args: &Args) -> Result<()> {
 
 /// The figures of every strategy, and the first repetition of the last.
 fn measure(args: &Args, wavefront: &Wavefront) -> Result<(Figures, Columns)> {
-    let strategies = if args.strategy.is_empty() { &Strategy::ALL[..] } else { &args.strategy };
+    let strategies = if args.strategy.is_empty() { Strategy::ALL } else { &args.strategy };
     let progress = progress::bar(strategies.len().saturating_mul(args.rays))?;
     progress.set_message("quadrature");
     let check = Check::new(wavefront, &args.medium, args.rays.min(wavefront.len()), args.check);
@@ -191,5 +191,5 @@ fn quantile(ascending: &[f64], p: f64) -> Option<f64> {
 }
 
 fn names() -> String {
-    Strategy::ALL.map(Strategy::name).join(", ")
+    Strategy::ALL.iter().map(|s| s.name()).collect::<Vec<_>>().join(", ")
 }

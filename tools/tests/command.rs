@@ -153,7 +153,7 @@ fn text(path: &Path) -> &str {
 #[test]
 fn a_small_run_ends_with_a_table_that_agrees_with_quadrature() {
     let table = succeed(&["sample", "--rays", "131072", "--check", "256"]);
-    for strategy in Strategy::ALL {
+    for &strategy in Strategy::ALL {
         let rows: Vec<Vec<&str>> = table
             .lines()
             .map(|line| line.split_whitespace().collect::<Vec<_>>())

@@ -138,7 +138,7 @@ fn product_densities_stray_least_in_the_canonical_scene() {
 #[test]
 fn every_density_is_valid_on_every_set() {
     for set in ["broad", "tame", "canonical"].iter().flat_map(|name| Set::named(name).unwrap()) {
-        for strategy in Strategy::ALL {
+        for &strategy in Strategy::ALL {
             figures(set, strategy, 50);
         }
     }
