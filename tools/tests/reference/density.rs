@@ -45,7 +45,7 @@ impl<'a> Densities<'a> {
         Self { scene, start, angular }
     }
 
-    /// The pdf and the CDF at `t` of every strategy, in the order of `Strategy::ALL`.
+    /// The pdf and the CDF at `t` of the paper's five strategies, in their order.
     pub(crate) fn at(&self, t: &Big) -> Vec<(Big, Big)> {
         let direction = Direction::to(&(t - &self.scene.t_h), &self.scene.h);
         let r = self.scene.r(t);
