@@ -4,7 +4,7 @@ use crate::Error;
 use crate::geometry::{EmitterLanes, RayLanes};
 use crate::integrand::MediumLanes;
 use crate::scene::{Emitter, Medium};
-use crate::simd::Isa;
+use crate::simd::{Isa, Lanes, MOST_LANES};
 use core::ops::Range;
 
 /// A batch of rays as a structure of arrays; every column has the length of the batch and any alignment.
@@ -53,12 +53,13 @@ pub enum Media<'a> {
     },
 }
 
-/// Where a batch of samples is written; every column has the length of the batch.
+/// Where a batch of samples is written; every column has the length of the variates: that of the batch, or a multiple of
+/// it, the samples of one ray next to each other.
 #[derive(Debug)]
 pub struct Samples<'a> {
     /// Distances along the rays, in `[t_min, t_max]` \[m\].
     pub t: &'a mut [f32],
-    /// Probability densities over distance \[1/m\].
+    /// Probability densities over distance \[1/m\]; one below f32's range is 0.
     pub pdf: &'a mut [f32],
     /// `mu_s T rho N / (r^2 pdf)`: the one-sample estimate of the ray's single-scattered radiance per unit of the
     /// emitter's intensity \[1/m^2\], with `1/r^2` cancelled analytically and `T` counted from `t_min`.
@@ -67,13 +68,15 @@ pub struct Samples<'a> {
     pub r: Option<&'a mut [f32]>,
 }
 
-/// What became of the rays of a batch: `sampled + empty + invalid` is its length.
+/// What became of the rays of a batch: `sampled + empty + invalid` is its length. Where a call has several variates or
+/// distances for each ray, every one of them counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Counts {
     /// Rays with a sample.
     pub sampled: usize,
-    /// Valid rays without one: `t_min = t_max`, or no point of the ray is lit.
+    /// Valid rays without one: `t_min = t_max`, or no point of the ray is lit, or less than f32 can say anything about:
+    /// an interval shorter than 1e-18 m, or than 1e-36 of `r^2`, or that subtends 1e-30 rad, or 1e-25 of the light.
     pub empty: usize,
     /// Rays with a value that is NaN or out of range.
     pub invalid: usize,
@@ -93,25 +96,21 @@ impl std::ops::Add for Counts {
     }
 }
 
-/// The columns that a call reads: the batch, and one number per ray (the variate, or a distance).
+/// The columns that a call reads: the batch, and for each ray some numbers (variates, or distances) next to each other.
 #[derive(Clone, Copy)]
 pub(crate) struct Inputs<'a> {
     pub(crate) rays: Rays<'a>,
     pub(crate) emitters: Emitters<'a>,
     pub(crate) media: Media<'a>,
     pub(crate) given: &'a [f32],
+    /// How many of them each ray has.
+    pub(crate) per_ray: usize,
 }
 
 impl<'a> Inputs<'a> {
-    /// The inputs, if every column has the same length; `name` is that of `given`.
-    pub(crate) fn new(
-        rays: &Rays<'a>,
-        emitters: &Emitters<'a>,
-        media: &Media<'a>,
-        given: &'a [f32],
-        name: &'static str,
-    ) -> Result<Self, Error> {
-        let inputs = Self { rays: *rays, emitters: *emitters, media: *media, given };
+    /// The inputs, if every column has the same length; nothing is given yet.
+    pub(crate) fn new(rays: &Rays<'a>, emitters: &Emitters<'a>, media: &Media<'a>) -> Result<Self, Error> {
+        let inputs = Self { rays: *rays, emitters: *emitters, media: *media, given: &[], per_ray: 0 };
         const O: [&str; 3] = ["rays.origin[0]", "rays.origin[1]", "rays.origin[2]"];
         const D: [&str; 3] = ["rays.direction[0]", "rays.direction[1]", "rays.direction[2]"];
         const P: [&str; 3] = ["emitters.position[0]", "emitters.position[1]", "emitters.position[2]"];
@@ -133,13 +132,29 @@ impl<'a> Inputs<'a> {
             inputs.check("media.mu_s", mu_s)?;
             inputs.check("media.g", g)?;
         }
-        inputs.check(name, given)?;
         Ok(inputs)
+    }
+
+    /// The same with `given`, if its length is that of the batch or a multiple; `name` is what it is called.
+    pub(crate) fn with(self, given: &'a [f32], name: &'static str) -> Result<Self, Error> {
+        let (length, expected) = (given.len(), self.len());
+        let per_ray = length.checked_div(expected).unwrap_or(1);
+        if length == per_ray * expected && per_ray > 0 {
+            Ok(Self { given, per_ray, ..self })
+        } else {
+            Err(Error::Length { field: name, length, expected })
+        }
     }
 
     /// `Ok` if `column` has the length of the batch.
     pub(crate) fn check(&self, field: &'static str, column: &[f32]) -> Result<(), Error> {
         let (length, expected) = (column.len(), self.len());
+        if length == expected { Ok(()) } else { Err(Error::Length { field, length, expected }) }
+    }
+
+    /// `Ok` if `column` has the length of what was given.
+    pub(crate) fn check_given(&self, field: &'static str, column: &[f32]) -> Result<(), Error> {
+        let (length, expected) = (column.len(), self.given.len());
         if length == expected { Ok(()) } else { Err(Error::Length { field, length, expected }) }
     }
 
@@ -167,7 +182,8 @@ impl<'a> Inputs<'a> {
                 Media::Each { mu_a, mu_s, g } => Media::Each { mu_a: cut(mu_a), mu_s: cut(mu_s), g: cut(g) },
                 one => one,
             },
-            given: cut(self.given),
+            given: &self.given[range.start * self.per_ray..range.end * self.per_ray],
+            per_ray: self.per_ray,
         }
     }
 
@@ -224,9 +240,44 @@ fn load<I: Isa>(isa: I, column: &[f32], range: &Range<usize>) -> I::V {
     isa.load_padded(&column[range.start..range.end])
 }
 
+/// Which of the numbers that lie next to each other for every ray: number `index` of `per_ray`.
+#[derive(Clone, Copy)]
+pub(crate) struct Turn {
+    pub(crate) index: usize,
+    pub(crate) per_ray: usize,
+}
+
+impl Turn {
+    /// The lanes of this turn for the rays of `range`.
+    #[inline(always)]
+    pub(crate) fn load<I: Isa>(self, isa: I, column: &[f32], range: &Range<usize>) -> I::V {
+        if self.per_ray == 1 {
+            return load(isa, column, range);
+        }
+        let mut lanes = [0.0; MOST_LANES];
+        for (lane, ray) in lanes.iter_mut().zip(range.start..range.end) {
+            *lane = column[ray * self.per_ray + self.index];
+        }
+        isa.load_padded(&lanes[..range.len()])
+    }
+
+    /// Writes them.
+    #[inline(always)]
+    pub(crate) fn store<V: Lanes>(self, value: V, column: &mut [f32], range: &Range<usize>) {
+        if self.per_ray == 1 {
+            return value.store_prefix(&mut column[range.start..range.end]);
+        }
+        let mut lanes = [0.0; MOST_LANES];
+        value.store_prefix(&mut lanes[..range.len()]);
+        for (lane, ray) in lanes.iter().zip(range.start..range.end) {
+            column[ray * self.per_ray + self.index] = *lane;
+        }
+    }
+}
+
 /// Columns that a call writes.
 pub(crate) trait Outputs: Sized + Send {
-    /// Those of the first `k` rays, and of the rest.
+    /// Their first `k` values, and the rest.
     fn split_at(self, k: usize) -> (Self, Self);
 }
 

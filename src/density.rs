@@ -15,6 +15,12 @@ pub(crate) trait Density<I: Isa>: Sized {
     /// The density at a point of the support.
     fn pdf(&self, isa: I, geometry: &Geometry<I>, point: &Point<I>) -> Pdf<I>;
 
+    /// The integral of the integrand as the density has it, where it is made of the whole integrand.
+    #[inline(always)]
+    fn radiance(&self, _: I, _: &Geometry<I>, _: &MediumLanes<I>) -> Option<I::V> {
+        None
+    }
+
     /// The distances `[low, high]` that are sampled \[m\].
     #[inline(always)]
     fn support(geometry: &Geometry<I>) -> [I::V; 2] {

@@ -1,5 +1,6 @@
 //! What a malformed call returns.
 
+use crate::Strategy;
 use std::fmt;
 
 /// Why a call was refused. Nothing was written to any output.
@@ -15,8 +16,16 @@ pub enum Error {
         field: &'static str,
         /// Its length.
         length: usize,
-        /// The length of the batch, which is that of `rays.origin[0]`.
+        /// The length of the batch, which is that of `rays.origin[0]` (or a multiple of it, for `u` and `t`), or that of
+        /// what was given for it.
         expected: usize,
+    },
+    /// The strategy has no such thing.
+    Unavailable {
+        /// What was asked for, such as `radiance`.
+        field: &'static str,
+        /// The strategy.
+        strategy: Strategy,
     },
     /// A parameter is out of its range.
     Value {
@@ -40,8 +49,9 @@ impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Length { field, length, expected } => {
-                write!(f, "{field} has {length} elements, the batch has {expected}")
+                write!(f, "{field} has {length} elements, expected {expected}")
             }
+            Self::Unavailable { field, strategy } => write!(f, "the strategy {strategy} has no {field}"),
             Self::Value { field, value, expected } => write!(f, "{field} is {value}, expected {expected}"),
         }
     }

@@ -227,12 +227,18 @@ impl<I: Isa> Geometry<I> {
 
         let rest = self.rest(isa, offset, t_prime, I::V::select(from_a, self.b.t_prime, self.a.t_prime));
         let (from_start, to_end) = (I::V::select(from_a, offset, rest), I::V::select(from_a, rest, offset));
+        self.point_between(isa, from_start, to_end, t_prime, self.r(t_prime))
+    }
+
+    /// The point at these distances from the ends, from the foot of the perpendicular, and from the emitter.
+    #[inline(always)]
+    pub(crate) fn point_between(&self, isa: I, from_a: I::V, to_b: I::V, t_prime: I::V, r: I::V) -> Point<I> {
         // m from the end where N is smaller: both terms are positive.
-        let rising = c(0.0).le(self.beta);
+        let rising = isa.splat(0.0).le(self.beta);
         let m_end = I::V::select(rising, self.a.n * self.a.r, self.b.n * self.b.r);
-        let m = self.beta.abs().mul_add(I::V::select(rising, from_start, to_end), m_end);
-        let t = self.distance(isa, t_prime, from_start, to_end);
-        Point { t, t_prime, exact_t_prime: t_prime.widen(), r: self.r(t_prime), m }
+        let m = self.beta.abs().mul_add(I::V::select(rising, from_a, to_b), m_end);
+        let t = self.distance(isa, t_prime, from_a, to_b);
+        Point { t, t_prime, exact_t_prime: t_prime.widen(), r, m }
     }
 
     /// The point of the ray at the given distance, which may lie outside the lit interval.
@@ -252,6 +258,27 @@ impl<I: Isa> Geometry<I> {
         let m = I::V::narrow(self.beta_exact.mul_add(exact_t_prime, self.alpha_h));
         let t_prime = I::V::narrow(exact_t_prime);
         Point { t, t_prime, exact_t_prime, r: self.r(t_prime), m: m.max(isa.splat(0.0)) }
+    }
+
+    /// The start of the lit interval.
+    #[inline(always)]
+    pub(crate) fn start(&self) -> Point<I> {
+        let End { t, t_prime, r, n, clipped: _ } = self.a;
+        Point { t, t_prime, exact_t_prime: t_prime.widen(), r, m: n * r }
+    }
+
+    /// The distance of a point of the lit interval from its start \[m\].
+    #[inline(always)]
+    pub(crate) fn from_a(&self, isa: I, point: &Point<I>) -> I::V {
+        let clipped = self.rest(isa, self.t_max - point.t, point.t_prime, self.a.t_prime);
+        I::V::select(self.a.clipped, clipped, point.t - self.t_min).max(isa.splat(0.0))
+    }
+
+    /// `X = t' + r` \[m\], without cancellation: `exp(-mu_t X)` is the transmittance but for a constant.
+    #[inline(always)]
+    pub(crate) fn x(&self, isa: I, t_prime: I::V, r: I::V) -> I::V {
+        let long = r + t_prime.abs();
+        I::V::select(isa.splat(0.0).lt(t_prime), long, self.h * (self.h / long))
     }
 
     /// What is left of the interval beyond `offset` from one end: by the length, or by `t'` where that is smaller.

@@ -25,9 +25,13 @@ impl<I: Isa> MediumLanes<I> {
 /// `mu_s T rho N` \[1/m\]: the integrand times `r^2`.
 #[inline(always)]
 pub(crate) fn integrand_r2<I: Isa>(isa: I, g: &Geometry<I>, medium: &MediumLanes<I>, point: &Point<I>) -> I::V {
-    let depth = medium.mu_t.widen() * g.path(isa, point);
-    let transmittance = exp(isa, -depth);
-    (medium.mu_s * transmittance) * (phase(isa, g, medium.g, point) * g.cosine(isa, point))
+    (medium.mu_s * transmittance(isa, g, medium, point)) * (phase(isa, g, medium.g, point) * g.cosine(isa, point))
+}
+
+/// From `t_min` over the point to the emitter, (3).
+#[inline(always)]
+pub(crate) fn transmittance<I: Isa>(isa: I, g: &Geometry<I>, medium: &MediumLanes<I>, point: &Point<I>) -> I::V {
+    exp(isa, -(medium.mu_t.widen() * g.path(isa, point)))
 }
 
 /// Henyey-Greenstein, (12): `(1 - g^2) / (4 pi (1 + g^2 + 2 g sin theta)^(3/2))` \[1/sr\].

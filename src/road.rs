@@ -4,14 +4,15 @@
 //! group at a time. No ray's arithmetic knows where in the batch it stands: chunks and threads change no bit.
 
 use crate::Strategy;
-use crate::batch::{Counts, Inputs, Outputs, Samples};
-use crate::density::Density;
+use crate::batch::{Counts, Inputs, Outputs, Samples, Turn};
+use crate::density::{Density, none};
 use crate::geometry::Geometry;
 use crate::integrand::{MediumLanes, integrand_r2};
 use crate::simd::{Backend, Isa, Kernel, Lanes};
 use crate::strategy::Taylor;
 use crate::strategy::equi_angular::EquiAngular;
 use crate::strategy::point_normal::PointNormal;
+use crate::strategy::product::Product;
 use crate::strategy::taylor_phase::OfPhase;
 use crate::strategy::taylor_transmittance::OfTransmittance;
 use crate::strategy::transmittance::Transmittance;
@@ -25,6 +26,11 @@ pub(crate) trait Task {
     /// The columns that it writes.
     type Out<'a>: Outputs;
 
+    /// How many values it writes for each ray.
+    fn values_per_ray(inputs: &Inputs<'_>) -> usize {
+        inputs.per_ray
+    }
+
     /// Takes one chunk the whole way, with the density `D`.
     fn chunk<I: Isa, D: Density<I>>(isa: I, inputs: &Inputs<'_>, out: Self::Out<'_>) -> Counts;
 }
@@ -36,7 +42,7 @@ pub(crate) fn travel<T: Task>(backend: Backend, strategy: Strategy, inputs: &Inp
     }
     // Halves of whole chunks, so that a chunk is cut short at the end of the batch alone.
     let half = inputs.len().div_ceil(CHUNK).div_ceil(2) * CHUNK;
-    let (out_low, out_high) = out.split_at(half);
+    let (out_low, out_high) = out.split_at(half * T::values_per_ray(inputs));
     let low = || travel::<T>(backend, strategy, &inputs.slice(0..half), out_low);
     let high = || travel::<T>(backend, strategy, &inputs.slice(half..inputs.len()), out_high);
     #[cfg(feature = "rayon")]
@@ -61,14 +67,14 @@ impl<T: Task> Kernel for Chunk<'_, '_, T> {
         let Self { strategy, inputs, out } = self;
         match strategy {
             Strategy::Transmittance => T::chunk::<I, Transmittance<I>>(isa, inputs, out),
-            Strategy::EquiAngular
-            | Strategy::Product3
-            | Strategy::Product5
-            | Strategy::Product9
-            | Strategy::Product17 => T::chunk::<I, EquiAngular<I>>(isa, inputs, out),
+            Strategy::EquiAngular => T::chunk::<I, EquiAngular<I>>(isa, inputs, out),
             Strategy::PointNormal => T::chunk::<I, PointNormal<I>>(isa, inputs, out),
             Strategy::TaylorTransmittance => T::chunk::<I, Taylor<I, OfTransmittance>>(isa, inputs, out),
             Strategy::TaylorPhase => T::chunk::<I, Taylor<I, OfPhase>>(isa, inputs, out),
+            Strategy::Product3 => T::chunk::<I, Product<I, 3>>(isa, inputs, out),
+            Strategy::Product5 => T::chunk::<I, Product<I, 5>>(isa, inputs, out),
+            Strategy::Product9 => T::chunk::<I, Product<I, 9>>(isa, inputs, out),
+            Strategy::Product17 => T::chunk::<I, Product<I, 17>>(isa, inputs, out),
         }
     }
 }
@@ -77,18 +83,35 @@ impl<T: Task> Kernel for Chunk<'_, '_, T> {
 struct Group<I: Isa> {
     geometry: Geometry<I>,
     medium: MediumLanes<I>,
-    given: I::V,
-    /// Valid rays, whatever `given` is.
-    valid: I::Mask,
+    /// Which rays it holds.
+    range: Range<usize>,
 }
 
-/// Walks the lane groups of a chunk. `visit` returns which lanes are valid and which bisected.
+impl<I: Isa> Group<I> {
+    /// Which lanes are rays at all, and which of those have something to sample.
+    #[inline(always)]
+    fn valid(&self) -> I::Mask {
+        self.geometry.valid & self.medium.valid
+    }
+
+    /// What became of the lanes: `valid` with what was given, and `bisected`.
+    #[inline(always)]
+    fn count(&self, valid: I::Mask, bisected: I::Mask) -> Counts {
+        let present = u32::MAX >> (u32::BITS as usize - self.range.len());
+        let count = |mask: I::Mask| (I::V::bits(mask) & present).count_ones() as usize;
+        let (valid_count, sampled) = (count(valid), count(valid & self.geometry.lit));
+        Counts {
+            sampled,
+            empty: valid_count - sampled,
+            invalid: self.range.len() - valid_count,
+            bisected: count(bisected & valid & self.geometry.lit),
+        }
+    }
+}
+
+/// The lane groups of a chunk, each visited once.
 #[inline(always)]
-fn for_each_group<I: Isa>(
-    isa: I,
-    inputs: &Inputs<'_>,
-    mut visit: impl FnMut(Group<I>, Range<usize>) -> (I::Mask, I::Mask),
-) -> Counts {
+fn for_each_group<I: Isa>(isa: I, inputs: &Inputs<'_>, mut visit: impl FnMut(Group<I>) -> Counts) -> Counts {
     let mut counts = Counts::default();
     let mut start = 0;
     while start < inputs.len() {
@@ -96,27 +119,29 @@ fn for_each_group<I: Isa>(
         let ray = inputs.ray_lanes(isa, range.clone());
         let geometry = Geometry::new(isa, &ray, &inputs.emitters.lanes(isa, range.clone()));
         let medium = inputs.media.lanes(isa, range.clone());
-        let given = isa.load_padded(&inputs.given[range.clone()]);
-        let valid = geometry.valid & medium.valid;
-        let lit = geometry.lit;
-        let (valid, bisected) = visit(Group { geometry, medium, given, valid }, range.clone());
-
-        let present = u32::MAX >> (u32::BITS as usize - range.len());
-        let count = |mask: I::Mask| (I::V::bits(mask) & present).count_ones() as usize;
-        let (valid_count, sampled) = (count(valid), count(valid & lit));
-        counts = counts
-            + Counts {
-                sampled,
-                empty: valid_count - sampled,
-                invalid: range.len() - valid_count,
-                bisected: count(bisected & valid & lit),
-            };
         start = range.end;
+        counts = counts + visit(Group { geometry, medium, range });
     }
     counts
 }
 
-/// Draws a distance for every ray; `given` are the variates.
+/// What is given for a lane group, turn by turn.
+#[inline(always)]
+fn for_each_turn<I: Isa>(
+    isa: I,
+    inputs: &Inputs<'_>,
+    range: &Range<usize>,
+    mut visit: impl FnMut(Turn, I::V) -> Counts,
+) -> Counts {
+    let mut counts = Counts::default();
+    for index in 0..inputs.per_ray {
+        let turn = Turn { index, per_ray: inputs.per_ray };
+        counts = counts + visit(turn, turn.load(isa, inputs.given, range));
+    }
+    counts
+}
+
+/// Draws a distance for every variate that is given.
 pub(crate) struct Sample;
 
 impl Task for Sample {
@@ -129,23 +154,31 @@ impl Task for Sample {
             isa,
             inputs,
             #[inline(always)]
-            |group, range| {
-                let Group { geometry, medium, given: u, valid } = group;
-                let valid = valid & zero.le(u) & u.le(isa.splat(1.0));
-                let sampled = valid & geometry.lit;
-                let drawn = D::new(isa, &geometry, &medium).invert(isa, &geometry, u);
-                I::V::select(sampled, drawn.point.t, zero).store_prefix(&mut out.t[range.clone()]);
-                I::V::select(sampled, drawn.pdf.over_t, zero).store_prefix(&mut out.pdf[range.clone()]);
-                if let Some(weight) = &mut out.weight {
-                    let value = integrand_r2(isa, &geometry, &medium, &drawn.point) / drawn.pdf.times_r2;
-                    let possible = sampled & zero.lt(drawn.pdf.times_r2);
-                    let value = I::V::select(possible, value.min(isa.splat(f32::MAX)), zero);
-                    value.store_prefix(&mut weight[range.clone()]);
-                }
-                if let Some(r) = &mut out.r {
-                    I::V::select(sampled, drawn.point.r, zero).store_prefix(&mut r[range]);
-                }
-                (valid, drawn.bisected)
+            |group| {
+                let Group { geometry, medium, range } = &group;
+                let density = D::new(isa, geometry, medium);
+                for_each_turn(
+                    isa,
+                    inputs,
+                    range,
+                    #[inline(always)]
+                    |turn, u| {
+                        let valid = group.valid() & zero.le(u) & u.le(isa.splat(1.0));
+                        let sampled = valid & geometry.lit;
+                        let drawn = density.invert(isa, geometry, u);
+                        turn.store(I::V::select(sampled, drawn.point.t, zero), out.t, range);
+                        turn.store(I::V::select(sampled, drawn.pdf.over_t, zero), out.pdf, range);
+                        if let Some(weight) = &mut out.weight {
+                            let value = integrand_r2(isa, geometry, medium, &drawn.point) / drawn.pdf.times_r2;
+                            let possible = sampled & zero.lt(drawn.pdf.times_r2);
+                            turn.store(I::V::select(possible, value.min(isa.splat(f32::MAX)), zero), weight, range);
+                        }
+                        if let Some(r) = &mut out.r {
+                            turn.store(I::V::select(sampled, drawn.point.r, zero), r, range);
+                        }
+                        group.count(valid, drawn.bisected)
+                    },
+                )
             },
         )
     }
@@ -164,14 +197,23 @@ impl Task for Pdf {
             isa,
             inputs,
             #[inline(always)]
-            |group, range| {
-                let Group { geometry, medium, given: t, valid } = group;
-                let valid = valid & t.eq(t);
-                let [low, high] = D::support(&geometry);
-                let inside = valid & geometry.lit & low.le(t) & t.le(high);
-                let pdf = D::new(isa, &geometry, &medium).pdf(isa, &geometry, &geometry.point_at_distance(isa, t));
-                I::V::select(inside, pdf.over_t, zero).store_prefix(&mut out[range]);
-                (valid, !(valid | !valid))
+            |group| {
+                let Group { geometry, medium, range } = &group;
+                let density = D::new(isa, geometry, medium);
+                let [low, high] = D::support(geometry);
+                for_each_turn(
+                    isa,
+                    inputs,
+                    range,
+                    #[inline(always)]
+                    |turn, t| {
+                        let valid = group.valid() & t.eq(t);
+                        let inside = valid & geometry.lit & low.le(t) & t.le(high);
+                        let pdf = density.pdf(isa, geometry, &geometry.point_at_distance(isa, t));
+                        turn.store(I::V::select(inside, pdf.over_t, zero), out, range);
+                        group.count(valid, none(isa))
+                    },
+                )
             },
         )
     }
@@ -190,14 +232,51 @@ impl Task for Evaluate {
             isa,
             inputs,
             #[inline(always)]
-            |group, range| {
-                let Group { geometry, medium, given: t, valid } = group;
-                let valid = valid & t.eq(t);
-                let inside = valid & geometry.lit & geometry.t_min.le(t) & t.le(geometry.t_max);
-                let point = geometry.point_at_distance(isa, t);
-                let f = integrand_r2(isa, &geometry, &medium, &point) / (point.r * point.r);
-                I::V::select(inside, f.min(isa.splat(f32::MAX)), zero).store_prefix(&mut out[range]);
-                (valid, !(valid | !valid))
+            |group| {
+                let Group { geometry, medium, range } = &group;
+                for_each_turn(
+                    isa,
+                    inputs,
+                    range,
+                    #[inline(always)]
+                    |turn, t| {
+                        let valid = group.valid() & t.eq(t);
+                        let inside = valid & geometry.lit & geometry.t_min.le(t) & t.le(geometry.t_max);
+                        let point = geometry.point_at_distance(isa, t);
+                        let f = integrand_r2(isa, geometry, medium, &point) / (point.r * point.r);
+                        turn.store(I::V::select(inside, f.min(isa.splat(f32::MAX)), zero), out, range);
+                        group.count(valid, none(isa))
+                    },
+                )
+            },
+        )
+    }
+}
+
+/// What the density's own normalisation says of the integral.
+pub(crate) struct Radiance;
+
+impl Task for Radiance {
+    type Out<'a> = &'a mut [f32];
+
+    fn values_per_ray(_: &Inputs<'_>) -> usize {
+        1
+    }
+
+    #[inline(always)]
+    fn chunk<I: Isa, D: Density<I>>(isa: I, inputs: &Inputs<'_>, out: &mut [f32]) -> Counts {
+        let zero = isa.splat(0.0);
+        for_each_group(
+            isa,
+            inputs,
+            #[inline(always)]
+            |group| {
+                let Group { geometry, medium, range } = &group;
+                let sampled = group.valid() & geometry.lit;
+                let radiance = D::new(isa, geometry, medium).radiance(isa, geometry, medium).unwrap_or(zero);
+                let value = I::V::select(sampled, radiance.min(isa.splat(f32::MAX)), zero);
+                Turn { index: 0, per_ray: 1 }.store(value, out, range);
+                group.count(group.valid(), none(isa))
             },
         )
     }

@@ -45,13 +45,23 @@ impl Sampler {
         self.strategy
     }
 
-    /// Draws one distance per ray from the uniform variates `u` in `[0, 1]`.
+    /// Draws a distance for each of the uniform variates `u` in `[0, 1]`.
     ///
-    /// `t` increases with `u`. What is written for an empty or invalid ray is 0. A variate outside `[0, 1]` makes its
-    /// ray invalid. Equal inputs give equal bits, wherever they stand in a batch and however many threads there are.
+    /// `u` and the columns of `samples` have the length of the batch, or k times that: then the k samples of a ray lie
+    /// next to each other, those of ray `i` from `k i` on, and share the set-up of the ray's density.
+    ///
+    /// `t` increases with `u`, but for rounding: from two variates closer than 2^-20 the larger one may come out first,
+    /// by no more than 5e-6 of the CDF. What is written for an empty or invalid ray is 0. A variate outside `[0, 1]`
+    /// makes its ray invalid. Equal inputs give equal bits, wherever they stand in a batch and however many threads
+    /// there are.
+    ///
+    /// Beyond the rounding of `t` to f32 the CDF at `t` is within 2^-20 of `u` (2^-17 for the Taylor densities), and the
+    /// weight is that of a variate so near to `u`, within 1e-3 for 99.9 % of the rays (1e-5 for most), as measured by
+    /// `airlight accuracy`. At u = 0 and 1 a density that vanishes there is sampled next to the end.
     ///
     /// # Errors
-    /// [`Error::Length`] if a column has another length than `rays.origin[0]`. Nothing is written then.
+    /// [`Error::Length`] if a column has another length than `rays.origin[0]`, or `u` one that is no multiple of it, or
+    /// an output another one than `u`. Nothing is written then.
     pub fn sample(
         &self,
         rays: &Rays<'_>,
@@ -60,14 +70,14 @@ impl Sampler {
         u: &[f32],
         samples: &mut Samples<'_>,
     ) -> Result<Counts, Error> {
-        let inputs = Inputs::new(rays, emitters, media, u, "u")?;
-        inputs.check("samples.t", samples.t)?;
-        inputs.check("samples.pdf", samples.pdf)?;
+        let inputs = Inputs::new(rays, emitters, media)?.with(u, "u")?;
+        inputs.check_given("samples.t", samples.t)?;
+        inputs.check_given("samples.pdf", samples.pdf)?;
         if let Some(weight) = &samples.weight {
-            inputs.check("samples.weight", weight)?;
+            inputs.check_given("samples.weight", weight)?;
         }
         if let Some(r) = &samples.r {
-            inputs.check("samples.r", r)?;
+            inputs.check_given("samples.r", r)?;
         }
         let out = Samples {
             t: samples.t,
@@ -78,7 +88,35 @@ impl Sampler {
         Ok(road::travel::<road::Sample>(self.backend, self.strategy, &inputs, out))
     }
 
+    /// An estimate of each ray's single-scattered radiance per unit of the emitter's intensity \[1/m^2\], without a
+    /// sample: what the product density has for the integral of the integrand. For choosing between emitters, or guiding.
+    ///
+    /// Relative error in a box of side 10 (`mu_t` 0.7, `g` 0 and 0.9), for half of the rays and for 99 %: 5 % and 25 %
+    /// with 3 knots, 1.2 % and 8 % with 5, 0.3 % and 2 % with 9, 0.08 % and 0.5 % with 17.
+    ///
+    /// # Errors
+    /// As [`sample`](Self::sample), and [`Error::Unavailable`] unless [`Strategy::has_radiance`].
+    pub fn radiance(
+        &self,
+        rays: &Rays<'_>,
+        emitters: &Emitters<'_>,
+        media: &Media<'_>,
+        radiance: &mut [f32],
+    ) -> Result<Counts, Error> {
+        if !self.strategy.has_radiance() {
+            return Err(Error::Unavailable { field: "radiance", strategy: self.strategy });
+        }
+        let inputs = Inputs::new(rays, emitters, media)?;
+        inputs.check("radiance", radiance)?;
+        Ok(road::travel::<road::Radiance>(self.backend, self.strategy, &inputs, radiance))
+    }
+
     /// The density at given distances `t`, for multiple importance sampling \[1/m\]; 0 outside the sampled interval.
+    ///
+    /// It is the density of what [`sample`](Self::sample) returns, taken at `t` as rounded: where `t` resolves `r` the
+    /// two agree within 1e-5, next to the emitter that of `sample` is the exact one. Relative error at a given `t`: below
+    /// 8 ulp for 99 % of rays (48 for the Taylor densities), 64 (256) for 99.99 %; where the density vanishes with N,
+    /// relative to a thousandth of its mean over the angle. A density below f32's range is 0.
     ///
     /// [`Counts::sampled`] counts the rays that have a sample, whether or not it could be at `t`. A NaN in `t` makes
     /// its ray invalid.
@@ -93,13 +131,14 @@ impl Sampler {
         t: &[f32],
         pdf: &mut [f32],
     ) -> Result<Counts, Error> {
-        let inputs = Inputs::new(rays, emitters, media, t, "t")?;
-        inputs.check("pdf", pdf)?;
+        let inputs = Inputs::new(rays, emitters, media)?.with(t, "t")?;
+        inputs.check_given("pdf", pdf)?;
         Ok(road::travel::<road::Pdf>(self.backend, self.strategy, &inputs, pdf))
     }
 
     /// The integrand `mu_s T rho N / r^2` at given distances `t` \[1/m^3\], the same for every strategy; 0 outside
-    /// `[t_min, t_max]`.
+    /// `[t_min, t_max]`, and at most `f32::MAX`. Max error 48 ulp where the optical depth is below 30; where N vanishes,
+    /// relative to N = 1e-3.
     ///
     /// # Errors
     /// As [`sample`](Self::sample).
@@ -111,8 +150,8 @@ impl Sampler {
         t: &[f32],
         integrand: &mut [f32],
     ) -> Result<Counts, Error> {
-        let inputs = Inputs::new(rays, emitters, media, t, "t")?;
-        inputs.check("integrand", integrand)?;
+        let inputs = Inputs::new(rays, emitters, media)?.with(t, "t")?;
+        inputs.check_given("integrand", integrand)?;
         Ok(road::travel::<road::Evaluate>(self.backend, Strategy::EquiAngular, &inputs, integrand))
     }
 
@@ -170,6 +209,7 @@ fn one<T: road::Task>(
         emitters: Emitters::One(*emitter),
         media: Media::One(*medium),
         given: from_ref(&given),
+        per_ray: 1,
     };
     road::travel::<T>(backend, strategy, &inputs, out)
 }

@@ -78,7 +78,7 @@ fn output_of_another_length_is_named() {
 
 #[test]
 fn an_error_says_it_in_words() {
-    assert_eq!(length("rays.t_max", 3, 4).to_string(), "rays.t_max has 3 elements, the batch has 4");
+    assert_eq!(length("rays.t_max", 3, 4).to_string(), "rays.t_max has 3 elements, expected 4");
     assert_eq!(Medium::new(0.0, 1.0, 2.0).unwrap_err().to_string(), "g is 2, expected -1 <= g <= 1");
 }
 

@@ -2,11 +2,20 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-/// `alpha h` \[m\] and `beta`, of an emitter with a normal.
+/// `r N`, which is linear along the ray, of an emitter with a normal: `alpha h + beta t'`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Normal {
     pub(super) alpha_h: f64,
     pub(super) beta: f64,
+    /// Its value at `t = 0` \[m\]: `alpha h - beta t_h`, but no difference of large numbers.
+    pub(super) at_0: f64,
+}
+
+impl Normal {
+    /// `r N` \[m\] from where it is known nearest, negative on the dark side.
+    pub(super) fn height(&self, t: f64, t_prime: f64) -> f64 {
+        if t.abs() < t_prime.abs() { self.at_0 + self.beta * t } else { self.alpha_h + self.beta * t_prime }
+    }
 }
 
 /// A direction of the arc, by its angles from the start and to the end \[rad\].
@@ -56,20 +65,18 @@ impl Arc {
     /// The part of `[t_min, t_max]` with `N > 0`, if there is one.
     pub(super) fn new(h: f64, t_h: f64, (t_min, t_max): (f64, f64), normal: Option<Normal>) -> Option<Self> {
         let (mut t_a, mut t_b, mut a, mut b) = (t_min, t_max, t_min - t_h, t_max - t_h);
-        // Of N: r N = alpha h + beta t' is linear along the ray.
-        let height = |n: Normal, t_prime: f64| n.alpha_h + n.beta * t_prime;
         let (mut height_a, mut height_b) = (1.0, 1.0);
         if let Some(n) = normal {
-            (height_a, height_b) = (height(n, a), height(n, b));
+            (height_a, height_b) = (n.height(t_a, a), n.height(t_b, b));
             if height_a <= 0.0 && height_b <= 0.0 {
                 return None;
             }
-            let horizon = -n.alpha_h / n.beta;
+            let (horizon, from_foot) = (-n.at_0 / n.beta, -n.alpha_h / n.beta);
             if height_a <= 0.0 {
-                (t_a, a, height_a) = (t_h + horizon, horizon, 0.0);
+                (t_a, a, height_a) = (horizon, from_foot, 0.0);
             }
             if height_b <= 0.0 {
-                (t_b, b, height_b) = (t_h + horizon, horizon, 0.0);
+                (t_b, b, height_b) = (horizon, from_foot, 0.0);
             }
         }
         if t_a >= t_b {
@@ -209,7 +216,7 @@ mod tests {
         assert_close(arc.one_plus_sin_theta(1.0, arc.end()), 1.0 + 0.5f64.sqrt(), 1e-15);
         assert_close(arc.one_plus_sin_theta(-1.0, arc.end()), 1.0 - 0.5f64.sqrt(), 1e-15);
         assert_close(arc.integral_of_cosine(arc.start(), foot), 0.25 * PI, 1e-15);
-        let down = Normal { alpha_h: 1.0, beta: 0.0 };
+        let down = Normal { alpha_h: 1.0, beta: 0.0, at_0: 1.0 };
         let arc = Arc::new(1.0, 1.0, (0.0, 2.0), Some(down)).unwrap();
         assert_close(arc.integral_of_cosine(arc.start(), foot), 0.5f64.sqrt(), 1e-15);
     }
@@ -242,7 +249,7 @@ mod tests {
     #[test]
     fn the_cosine_is_exact_at_either_horizon() {
         for sign in [-1.0, 1.0] {
-            let normal = Normal { alpha_h: 0.8, beta: 0.6 * sign };
+            let normal = Normal { alpha_h: 0.8, beta: 0.6 * sign, at_0: 0.8 };
             let horizon = -0.8 / (0.6 * sign);
             // from t_h = 0 on, t is t'
             let arc = Arc::new(1.0, 0.0, (-9.0, 9.0), Some(normal)).unwrap();
@@ -258,7 +265,7 @@ mod tests {
 
     #[test]
     fn what_the_normal_turns_away_from_is_dark() {
-        let arc = |alpha_h, beta| Arc::new(1.0, 0.0, (1.0, 9.0), Some(Normal { alpha_h, beta }));
+        let arc = |alpha_h, beta| Arc::new(1.0, 0.0, (1.0, 9.0), Some(Normal { alpha_h, beta, at_0: alpha_h }));
         assert_eq!(arc(-1.0, 0.0), None);
         assert_eq!(arc(0.0, 0.0), None);
         assert_eq!(arc(0.0, -1.0), None);

@@ -27,6 +27,7 @@ pub mod paper;
 mod product;
 pub mod quadrature;
 mod scene;
+mod twofold;
 mod variance;
 mod warp;
 

@@ -121,10 +121,11 @@ impl Product {
     }
 }
 
-/// `Y_c` \[m\].
+/// `Y_c` \[m\], no shorter than any length.
 fn scale(arc: &Arc, mu_t: f64, g: f64) -> f64 {
     let turn = arc.h * (1.0 - g) / (1.0 + g);
-    1.0 / (chosen::EXTINCTION * mu_t + 1.0 / (chosen::START * half_angle(arc.h, arc.a) + chosen::PEAK * turn))
+    let reach = chosen::START * half_angle(arc.h, arc.a) + chosen::PEAK * turn;
+    (1.0 / (chosen::EXTINCTION * mu_t + 1.0 / reach)).max(1e-18)
 }
 
 /// Where the knots are.

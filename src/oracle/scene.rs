@@ -2,6 +2,7 @@
 
 use super::arc::{Angle, Arc, Normal, subtended};
 use super::quadrature::integrate_pieces;
+use super::twofold::Vector;
 use crate::scene::{Emitter, FARTHEST, Medium, Ray};
 use std::f64::consts::PI;
 
@@ -30,19 +31,17 @@ impl Scene {
     /// The scene that the f32 values describe.
     #[must_use]
     pub fn new(ray: &Ray, emitter: &Emitter, medium: &Medium) -> Self {
-        // Products of f32 values are as good as exact in f64: a small h keeps its digits. Of a rounded unit vector it
-        // would lose them.
-        let d = ray.direction().as_dvec3();
-        let w = ray.origin().as_dvec3() - emitter.position().as_dvec3();
+        // A direction rounded to a unit vector would lose the digits of a small h, and so would products rounded to f64.
+        let d = Vector::from(ray.direction());
+        let w = Vector::difference(ray.origin(), emitter.position());
         let w_cross_d = w.cross(d);
-        let foot = d.cross(w_cross_d) / d.length_squared(); // seen from the emitter
         let (t_min, t_max) = (f64::from(ray.t_min()), f64::from(ray.t_max().min(FARTHEST)));
         let t_h = -w.dot(d) / d.length();
         let scale = t_h.abs().max((t_min - t_h).abs());
         let h = (w_cross_d.length() / d.length()).max(1e-18).max(1e-9 * scale);
         let normal = emitter.normal().map(|n| {
-            let n = n.as_dvec3();
-            Normal { alpha_h: n.dot(foot), beta: n.dot(d) / d.length() }
+            let n = Vector::from(n);
+            Normal { alpha_h: n.cross(d).dot(w_cross_d) / d.dot(d), beta: n.dot(d) / d.length(), at_0: n.dot(w) }
         });
         Self {
             t_min,
@@ -136,7 +135,7 @@ impl Scene {
     /// The emitter's cosine `N` at `t` \[m\]; 1 without a normal.
     #[must_use]
     pub fn cosine(&self, t: f64) -> f64 {
-        self.normal.map_or(1.0, |n| ((n.alpha_h + n.beta * (t - self.t_h)) / self.r(t)).max(0.0))
+        self.normal.map_or(1.0, |n| (n.height(t, t - self.t_h) / self.r(t)).max(0.0))
     }
 
     /// What is scattered into the ray at `t` \[m\], `mu_s T rho N / r^2` \[1/m^3\], for unit intensity.

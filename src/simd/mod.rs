@@ -9,6 +9,9 @@ pub(crate) use portable::Portable;
 
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
+/// No lane group has more lanes.
+pub(crate) const MOST_LANES: usize = 32;
+
 /// A group of lanes that can be added and multiplied.
 pub(crate) trait Number:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>

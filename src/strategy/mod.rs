@@ -2,6 +2,7 @@
 
 pub(crate) mod equi_angular;
 pub(crate) mod point_normal;
+pub(crate) mod product;
 mod taylor;
 pub(crate) mod taylor_phase;
 pub(crate) mod taylor_transmittance;
@@ -26,13 +27,13 @@ pub enum Strategy {
     TaylorTransmittance,
     /// Proportional to `N/r^2` times the Taylor polynomial of the phase function.
     TaylorPhase,
-    /// Proportional to the whole integrand, linear between its values at 3 knots.
+    /// Nearly proportional to the whole integrand, known at 3 points and linear between them in a warped variable.
     Product3,
-    /// The same with 5 knots.
+    /// The same with 5 points.
     Product5,
-    /// The same with 9 knots.
+    /// The same with 9 points.
     Product9,
-    /// The same with 17 knots.
+    /// The same with 17 points.
     Product17,
 }
 
@@ -49,6 +50,12 @@ impl Strategy {
         Self::Product9,
         Self::Product17,
     ];
+
+    /// Whether it is made of the whole integrand, so that [`Sampler::radiance`](crate::Sampler::radiance) can be asked.
+    #[must_use]
+    pub fn has_radiance(self) -> bool {
+        matches!(self, Self::Product3 | Self::Product5 | Self::Product9 | Self::Product17)
+    }
 
     /// Its name on the command line, in JSON and in prose.
     #[must_use]

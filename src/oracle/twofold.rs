@@ -1,0 +1,89 @@
+//! Vectors with twice the digits of f64: products that cancel leave a sum that still has all of f64's.
+
+use glam::{DVec3, Vec3};
+use std::ops::{Add, Mul, Sub};
+
+/// The unevaluated sum of a number and of what rounding it took away.
+#[derive(Clone, Copy, Debug)]
+struct Twofold {
+    high: f64,
+    low: f64,
+}
+
+impl Twofold {
+    /// `a + b` exactly (Knuth).
+    fn sum(a: f64, b: f64) -> Self {
+        let high = a + b;
+        let of_b = high - a;
+        Self { high, low: (a - (high - of_b)) + (b - of_b) }
+    }
+}
+
+impl Add for Twofold {
+    type Output = Self;
+    fn add(self, o: Self) -> Self {
+        let sum = Self::sum(self.high, o.high);
+        Self::sum(sum.high, sum.low + (self.low + o.low))
+    }
+}
+
+impl Sub for Twofold {
+    type Output = Self;
+    fn sub(self, o: Self) -> Self {
+        self + Self { high: -o.high, low: -o.low }
+    }
+}
+
+impl Mul for Twofold {
+    type Output = Self;
+    fn mul(self, o: Self) -> Self {
+        let high = self.high * o.high;
+        let rounding = self.high.mul_add(o.high, -high);
+        Self::sum(high, rounding + (self.high * o.low + self.low * o.high))
+    }
+}
+
+/// A vector of such numbers.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Vector([Twofold; 3]);
+
+impl Vector {
+    /// `a - b` exactly.
+    pub(super) fn difference(a: Vec3, b: Vec3) -> Self {
+        Self([0, 1, 2].map(|k| Twofold::sum(a[k].into(), -f64::from(b[k]))))
+    }
+
+    pub(super) fn cross(self, o: Self) -> Self {
+        let ([a0, a1, a2], [b0, b1, b2]) = (self.0, o.0);
+        Self([a1 * b2 - a2 * b1, a2 * b0 - a0 * b2, a0 * b1 - a1 * b0])
+    }
+
+    pub(super) fn dot(self, o: Self) -> f64 {
+        let ([a0, a1, a2], [b0, b1, b2]) = (self.0, o.0);
+        (a0 * b0 + a1 * b1 + a2 * b2).high
+    }
+
+    pub(super) fn length(self) -> f64 {
+        DVec3::from_array(self.0.map(|c| c.high)).length()
+    }
+}
+
+impl From<Vec3> for Vector {
+    fn from(v: Vec3) -> Self {
+        Self::difference(v, Vec3::ZERO)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn products_that_cancel_leave_all_digits() {
+        let (long, step) = (2f32.powi(25), f32::EPSILON);
+        let w = Vector::difference(Vec3::new(long, long, 0.0), Vec3::new(-1.0 / long, -1.0 / long, 0.0));
+        let expected = f64::from(step) * (f64::from(long) + 1.0 / f64::from(long));
+        assert_eq!(w.dot(Vector::from(Vec3::new(1.0 + step, -1.0, 0.0))), expected);
+        assert_eq!(w.cross(Vector::from(Vec3::new(1.0 + step, 1.0, 0.0))).length(), expected);
+    }
+}

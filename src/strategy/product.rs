@@ -1,0 +1,230 @@
+//! `p` nearly proportional to the whole integrand `T rho N / r^2`, without trigonometry and without iteration.
+//!
+//! The integrand is evaluated at K knots of a variable `v` in `[0, 1]`, taken as linear between them, and inverted in
+//! closed form. `v` is a Moebius map of `X = t' + r`, in which everything is algebraic (our derivation):
+//!
+//! - `T` is proportional to `exp(-mu_t X)`; `r = (X + h^2/X)/2`, `t' = (X - h^2/X)/2`, `dX/dt = X/r`.
+//! - `1 + g^2 + 2 g sin theta = (A^2 X^2 + B^2 h^2)/(X^2 + h^2)` with `A = 1 + g`, `B = 1 - g`.
+//! - `Y = X - X_a = Y_c v/(e + 1 - v)`, where `Y_c` is the length over which the integrand changes and `e = Y_c/Y_b`.
+
+use crate::density::{Density, Drawn, Pdf, none};
+use crate::geometry::{Geometry, Point};
+use crate::integrand::{MediumLanes, transmittance};
+use crate::simd::math::one_minus_exp;
+use crate::simd::{Isa, Lanes, Number};
+
+/// `0.7 x + 0.15 (1 - cos(pi x))` at `x = k/16`; with fewer knots every second, fourth or eighth.
+const KNOTS: [f32; 17] = [
+    0.0,
+    0.046_632_207,
+    0.098_918_07,
+    0.156_529_56,
+    0.218_933_98,
+    0.285_414_46,
+    0.355_097_48,
+    0.426_986_45,
+    0.5,
+    0.573_013_54,
+    0.644_902_5,
+    0.714_585_54,
+    0.781_066,
+    0.843_470_46,
+    0.901_081_9,
+    0.953_367_8,
+    1.0,
+];
+
+/// Of this `|g|` is the density for all that is larger: at 1 the phase function is none.
+const MOST_FORWARD: f32 = 1.0 - 1.0 / 4096.0;
+
+/// No length is resolved below this \[m\].
+const SHORTEST: f32 = 1e-18;
+
+pub(crate) struct Product<I: Isa, const K: usize> {
+    /// `X` at the ends.
+    x_a: I::V,
+    x_b: I::V,
+    /// The scale of the warp, `Y` at the end, and `e`.
+    y_c: I::V,
+    y_b: I::V,
+    e: I::V,
+    /// The density over `v` at the knots; its integral is 1.
+    f: [I::V; K],
+    /// The integral of the integrand over `mu_s (1 - g^2)/(4 pi)` and the transmittance at the start.
+    mass: I::V,
+}
+
+/// Where `v` lies between two knots.
+struct Segment<I: Isa> {
+    f_0: I::V,
+    f_1: I::V,
+    v_0: I::V,
+    width: I::V,
+}
+
+impl<I: Isa, const K: usize> Product<I, K> {
+    const V: [f32; K] = {
+        let mut v = [0.0; K];
+        let mut k = 0;
+        while k < K {
+            v[k] = KNOTS[k * 16 / (K - 1)];
+            k += 1;
+        }
+        v
+    };
+
+    /// The segment for which `beyond(i, C_i)` holds for all `i` up to its start, where `C_i` is the CDF at knot `i`.
+    #[inline(always)]
+    fn segment(&self, isa: I, beyond: impl Fn(usize, I::V) -> I::Mask) -> (Segment<I>, I::V) {
+        let mut below = isa.splat(0.0);
+        let mut cdf = below;
+        let [f_0, f_1] = [self.f[0], self.f[1]];
+        let mut s = Segment { f_0, f_1, v_0: isa.splat(Self::V[0]), width: isa.splat(Self::V[1] - Self::V[0]) };
+        let mut i = 1;
+        while i + 1 < K {
+            let half_width = isa.splat(0.5 * (Self::V[i] - Self::V[i - 1]));
+            cdf = (self.f[i - 1] + self.f[i]).mul_add(half_width, cdf);
+            let here = beyond(i, cdf);
+            s.f_0 = I::V::select(here, self.f[i], s.f_0);
+            s.f_1 = I::V::select(here, self.f[i + 1], s.f_1);
+            s.v_0 = I::V::select(here, isa.splat(Self::V[i]), s.v_0);
+            s.width = I::V::select(here, isa.splat(Self::V[i + 1] - Self::V[i]), s.width);
+            below = I::V::select(here, cdf, below);
+            i += 1;
+        }
+        (s, below)
+    }
+
+    /// From a density over `v` where `Y + Y_c = Y_c/s`: `dv/dt = (dv/dY) X/r`.
+    #[inline(always)]
+    fn pdf_over_v(&self, isa: I, p_v: I::V, s: I::V, x: I::V, r: I::V) -> Pdf<I> {
+        let over_y = p_v * (s * s) * ((isa.splat(1.0) + self.e) / self.y_c);
+        Pdf { over_t: over_y * (x / r), times_r2: over_y * (x * r) }
+    }
+}
+
+impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
+    #[inline(always)]
+    fn new(isa: I, geometry: &Geometry<I>, medium: &MediumLanes<I>) -> Self {
+        let c = |x| isa.splat(x);
+        let (g, one) = (geometry, c(1.0));
+        let phase_g = medium.g.max(c(-MOST_FORWARD)).min(c(MOST_FORWARD));
+        let (forward, backward) = (one + phase_g, one - phase_g);
+        let (a2, b2) = (forward * forward, backward * backward);
+
+        let x_a = g.x(isa, g.a.t_prime, g.a.r);
+        let x_b = g.x(isa, g.b.t_prime, g.b.r);
+        let y_b = g.length * ((x_a + x_b) / (g.a.r + g.b.r));
+        let reach = x_a.mul_add(c(1.5), c(1.25) * g.h * (backward / forward));
+        let y_c = (one / medium.mu_t.mul_add(c(0.45), one / reach)).max(c(SHORTEST));
+        let e = y_c / y_b;
+        let w_0 = one / (one + e);
+
+        // At a knot P, Q stand for h, X, in a scale of their own that keeps their powers within f32.
+        let (h_c, x_c) = (g.h / y_c, x_a / y_c);
+        let scale = one / h_c.max(x_c).max(one);
+        let (h_c, x_c) = (h_c * scale, x_c * scale);
+        // m = n.(x - y) in units of the end where N is smaller.
+        let rising = c(0.0).le(g.beta);
+        let m_end = I::V::select(rising, g.a.n * g.a.r, g.b.n * g.b.r) / y_c;
+        let half_beta = c(0.5) * g.beta.abs();
+        let h_x = g.h / I::V::select(rising, x_a, x_b);
+        let inv_e = one / e;
+
+        let mut f = [one; K];
+        let mut before = one;
+        let mut slope = c(0.0);
+        let mut k = 0;
+        while k < K {
+            let v = c(Self::V[k]);
+            let rest = e + c(1.0 - Self::V[k]);
+            let (w, s) = (w_0 * v, w_0 * rest);
+            let depth = medium.mu_t * y_c * (v / rest);
+            let (_, mut transmittance) = one_minus_exp(isa, depth);
+            if k + 1 == K {
+                // Where T has vanished at the end it still counts: what it falls to is beyond what a line can follow.
+                let floor = before * ((one - slope) / (one + slope)).max(c(0.0));
+                transmittance = transmittance.max(floor);
+            }
+            before = transmittance;
+            slope = c(1.5) * medium.mu_t * y_c * (w / s + one);
+
+            let p = h_c * s;
+            let q = x_c.mul_add(s, scale * w);
+            let way = I::V::select(rising, w, c(1.0 - Self::V[k]) * inv_e);
+            let m = m_end.mul_add(s * q, half_beta * way * p.mul_add(h_x, q));
+            let p2 = p * p;
+            let s_1 = q.mul_add(q, p2).max(c(1e-18));
+            let s_2 = (a2 * q).mul_add(q, b2 * p2).max(c(1e-18));
+            let numerator = I::V::select(g.has_normal, m.max(c(0.0)), s_1);
+            f[k] = transmittance * numerator / (s_2 * (s_1 * s_2).sqrt());
+            k += 1;
+        }
+
+        let mut mass = c(0.0);
+        let mut k = 1;
+        while k < K {
+            mass = (f[k - 1] + f[k]).mul_add(c(0.5 * (Self::V[k] - Self::V[k - 1])), mass);
+            k += 1;
+        }
+        // Nothing to go by: uniform in v.
+        let usable = c(1e-30).lt(mass) & mass.le(c(1e36));
+        let norm = one / mass;
+        let f = f.map(|f| I::V::select(usable, f * norm, one));
+        // f stands for the integrand over v times this.
+        let unit = scale * scale * (w_0 / y_c) * I::V::select(g.has_normal, c(4.0) * scale, c(2.0));
+        Self { x_a, x_b, y_c, y_b, e, f, mass: mass * unit }
+    }
+
+    #[inline(always)]
+    fn invert(&self, isa: I, geometry: &Geometry<I>, u: I::V) -> Drawn<I> {
+        let c = |x| isa.splat(x);
+        let (g, one) = (geometry, c(1.0));
+        let (segment, below) = self.segment(isa, |_, cdf| cdf.le(u));
+        let Segment { f_0, f_1, v_0, width } = segment;
+        let area = (u - below) / width;
+        let root = f_0.mul_add(f_0, (f_1 - f_0) * (area + area)).max(c(0.0)).sqrt();
+        // Off the knots, where the density may be 0.
+        let tau = ((area + area) / (f_0 + root)).max(c(1e-7)).min(c(1.0 - f32::EPSILON));
+        let v = tau.mul_add(width, v_0);
+        let p_v = tau.mul_add(f_1 - f_0, f_0);
+
+        let rest = one - v;
+        let y_rest = self.y_c / (self.e + rest);
+        let y = y_rest * v;
+        let to_y_b = y_rest * rest * ((one + self.e) / self.e);
+        let x = self.x_a + y;
+        let h_x = g.h / x;
+        let half = c(0.5);
+        let from_a = (half * y * (g.h / self.x_a).mul_add(h_x, one)).min(g.length);
+        let to_b = (half * to_y_b * (g.h / self.x_b).mul_add(h_x, one)).min(g.length);
+        let t_prime = (half * (x - g.h * h_x)).max(g.a.t_prime).min(g.b.t_prime);
+        let r = half * g.h.mul_add(h_x, x);
+        let point = g.point_between(isa, from_a, to_b, t_prime, r);
+        let s = (self.e + rest) / (one + self.e);
+        let pdf = self.pdf_over_v(isa, p_v, s, x, r);
+        Drawn { point, pdf, bisected: none(isa) }
+    }
+
+    #[inline(always)]
+    fn pdf(&self, isa: I, geometry: &Geometry<I>, point: &Point<I>) -> Pdf<I> {
+        let c = |x| isa.splat(x);
+        let (g, one) = (geometry, c(1.0));
+        let x = g.x(isa, point.t_prime, point.r);
+        let y = (g.from_a(isa, point) * ((self.x_a + x) / (g.a.r + point.r))).min(self.y_b);
+        let s = self.y_c / (y + self.y_c);
+        let v = (y * (one + self.e) / (y + self.y_c)).min(one);
+        let (segment, _) = self.segment(isa, |i, _| c(Self::V[i]).le(v));
+        let tau = (v - segment.v_0) / segment.width;
+        let p_v = tau.mul_add(segment.f_1 - segment.f_0, segment.f_0);
+        self.pdf_over_v(isa, p_v, s, x, point.r)
+    }
+
+    #[inline(always)]
+    fn radiance(&self, isa: I, geometry: &Geometry<I>, medium: &MediumLanes<I>) -> Option<I::V> {
+        let g = medium.g.max(isa.splat(-MOST_FORWARD)).min(isa.splat(MOST_FORWARD));
+        let phase = (isa.splat(1.0) - g) * (isa.splat(1.0) + g) * isa.splat(0.25 * core::f32::consts::FRAC_1_PI);
+        let start = transmittance(isa, geometry, medium, &geometry.start());
+        Some(medium.mu_s * start * (phase * self.mass))
+    }
+}

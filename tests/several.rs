@@ -1,0 +1,69 @@
+//! Several samples of a ray are those of as many calls with one: the same bits, next to each other.
+
+mod scenes;
+
+use airlight::{Counts, Error, Sampler, Samples, Strategy};
+use airlight_tools::families::{Case, Columns, Family};
+use scenes::Random;
+
+/// Not a multiple of any lane group, and more than a chunk.
+const RAYS: usize = 4099;
+
+fn columns() -> Columns {
+    let cases: Vec<Case> = (0..RAYS).map(|i| Family::ALL[i % 10].case(6, i as u64)).collect();
+    Columns::new(&cases)
+}
+
+fn sum(all: impl Iterator<Item = Counts>) -> Counts {
+    all.fold(Counts::default(), |sum, counts| sum + counts)
+}
+
+#[test]
+fn they_are_those_of_one_each() {
+    let columns = columns();
+    let (rays, emitters, media) = (columns.rays(), columns.emitters(), columns.media());
+    for per_ray in [2, 3, 8] {
+        let mut random = Random::new(7);
+        let u: Vec<f32> = (0..RAYS * per_ray).map(|_| random.uniform()).collect();
+        for strategy in Strategy::ALL {
+            let sampler = Sampler::new(strategy);
+            let [mut t, mut pdf, mut weight, mut r, mut pdf_at, mut f] = [(); 6].map(|()| vec![f32::NAN; u.len()]);
+            let mut samples = Samples { t: &mut t, pdf: &mut pdf, weight: Some(&mut weight), r: Some(&mut r) };
+            let counts = sampler.sample(&rays, &emitters, &media, &u, &mut samples).unwrap();
+            sampler.pdf(&rays, &emitters, &media, &t, &mut pdf_at).unwrap();
+            sampler.evaluate(&rays, &emitters, &media, &t, &mut f).unwrap();
+
+            let one_each = sum((0..per_ray).map(|index| {
+                let turn = |column: &[f32]| column.iter().skip(index).step_by(per_ray).copied().collect::<Vec<_>>();
+                let [mut t_1, mut pdf_1, mut weight_1, mut r_1, mut pdf_at_1, mut f_1] =
+                    [(); 6].map(|()| vec![f32::NAN; RAYS]);
+                let mut samples =
+                    Samples { t: &mut t_1, pdf: &mut pdf_1, weight: Some(&mut weight_1), r: Some(&mut r_1) };
+                let counts = sampler.sample(&rays, &emitters, &media, &turn(&u), &mut samples).unwrap();
+                sampler.pdf(&rays, &emitters, &media, &t_1, &mut pdf_at_1).unwrap();
+                sampler.evaluate(&rays, &emitters, &media, &t_1, &mut f_1).unwrap();
+                for (several, one) in
+                    [(&t, &t_1), (&pdf, &pdf_1), (&weight, &weight_1), (&r, &r_1), (&pdf_at, &pdf_at_1), (&f, &f_1)]
+                {
+                    let bits = |x: &[f32]| x.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+                    assert_eq!(bits(&turn(several)), bits(one), "{strategy}, {index} of {per_ray}, seed 7");
+                }
+                counts
+            }));
+            assert_eq!(counts, one_each, "{strategy}");
+        }
+    }
+}
+
+#[test]
+fn no_part_of_a_ray_is_sampled() {
+    let columns = columns();
+    let (rays, emitters, media) = (columns.rays(), columns.emitters(), columns.media());
+    for length in [0, RAYS - 1, RAYS + 1, 2 * RAYS - 1] {
+        let u = vec![0.5; length];
+        let (mut t, mut pdf) = (vec![f32::NAN; length], vec![f32::NAN; length]);
+        let mut samples = Samples { t: &mut t, pdf: &mut pdf, weight: None, r: None };
+        let result = Sampler::new(Strategy::EquiAngular).sample(&rays, &emitters, &media, &u, &mut samples);
+        assert_eq!(result, Err(Error::Length { field: "u", length, expected: RAYS }));
+    }
+}

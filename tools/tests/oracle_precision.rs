@@ -1,0 +1,151 @@
+//! The f64 oracle against arithmetic with hundreds of bits, on every family of hard inputs.
+//!
+//! Every error is at most 1e-12, but for one thing: where the ray passes the emitter at a millionth of its length, and
+//! next to where `N` is 0, one ulp of a distance changes a density by more. There the error is what is left beyond such
+//! a change; how many scenes of a family have to be excused so is printed with the errors.
+
+mod reference;
+
+use airlight::Strategy;
+use airlight::oracle;
+use airlight_tools::families::{Case, Family};
+use rayon::prelude::*;
+use reference::{Big, Densities, Scene, big};
+use std::fmt::Write;
+use std::ops::Range;
+
+const SEED: u64 = 20;
+/// Lit scenes of each family.
+const SCENES: usize = 1000;
+/// Every how many the radiance is integrated.
+const INTEGRATED: usize = 50;
+/// The largest error, relative; that of the CDF absolute.
+const BOUND: f64 = 1e-12;
+/// Of smaller numbers f64 has not all digits.
+const TINY: f64 = 1e-290;
+
+/// What is compared, and where its values are among those of a scene.
+const QUANTITIES: [(&str, Range<usize>); 8] = [
+    ("h", 0..1),
+    ("t_h", 1..2),
+    ("t_a", 2..3),
+    ("t_b", 3..4),
+    ("integrand", 4..5),
+    ("radiance", 5..6),
+    ("pdf", 6..11),
+    ("cdf", CDF..16),
+];
+const CDF: usize = 11;
+/// In the first ones no digit may be lost, whatever a few ulp of `t_h` do to the others.
+const WITHOUT_SLACK: usize = 2;
+
+#[test]
+fn the_oracle_is_as_exact_as_f64_allows() {
+    let (mut report, mut failures) = (format!("{:15}", "largest error"), Vec::new());
+    QUANTITIES.iter().for_each(|(quantity, _)| write!(report, " {quantity:>9}").unwrap());
+    write!(report, " {:>9}", "excused").unwrap();
+    for family in Family::ALL {
+        let cases = lit_cases(family);
+        let (errors, excused): (Vec<_>, Vec<_>) =
+            cases.par_iter().enumerate().map(|(i, (_, case))| Comparison::new(case, i).errors()).unzip();
+        write!(report, "\n{:15}", family.name()).unwrap();
+        for (k, (quantity, _)) in QUANTITIES.iter().enumerate() {
+            let worst = (0..cases.len()).max_by(|&i, &j| errors[i][k].total_cmp(&errors[j][k])).expect("cases");
+            let ((index, case), error) = (cases[worst], errors[worst][k]);
+            write!(report, " {error:9.1e}").unwrap();
+            if error > BOUND {
+                failures.push(format!("{family:?} {index} of seed {SEED}: {quantity} is off by {error:e}, {case:?}"));
+            }
+        }
+        write!(report, " {:9}", excused.into_iter().filter(|excused| *excused).count()).unwrap();
+    }
+    println!("{report}");
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+/// The first lit cases of a family, with their numbers.
+fn lit_cases(family: Family) -> Vec<(u64, Case)> {
+    let cases = (0..).map(|index| (index, family.case(SEED, index)));
+    cases.filter(|(_, case)| case.scene().is_ok_and(|scene| scene.lit().is_some())).take(SCENES).collect()
+}
+
+/// One scene at one point inside.
+struct Comparison {
+    oracle: oracle::Scene,
+    reference: Scene,
+    t: f64,
+    integrated: bool,
+}
+
+impl Comparison {
+    fn new(case: &Case, i: usize) -> Self {
+        let oracle = case.scene().expect("a valid case");
+        let u = if 0.0 < case.u && case.u < 1.0 { case.u.into() } else { 0.5 };
+        // A point of the lit part: Strategy::Transmittance alone may sample others.
+        let [_, strategies @ ..] = Strategy::ALL;
+        let t = oracle.invert(strategies[i % strategies.len()], u);
+        Self { reference: Scene::new(case), oracle, t, integrated: i.is_multiple_of(INTEGRATED) }
+    }
+
+    /// The largest error of each of the [`QUANTITIES`], and whether the rounding of distances had to excuse one.
+    fn errors(&self) -> ([f64; QUANTITIES.len()], bool) {
+        let exact = self.exact(&self.reference, &big(self.t));
+        let mut errors = worst(&self.oracle(), &exact, &[]);
+        let excused = errors[WITHOUT_SLACK..].iter().any(|&error| error > BOUND);
+        if excused {
+            let beyond = worst(&self.oracle(), &exact, &self.within_a_few_ulp());
+            errors[WITHOUT_SLACK..].copy_from_slice(&beyond[WITHOUT_SLACK..]);
+        }
+        (errors, excused)
+    }
+
+    fn oracle(&self) -> Vec<f64> {
+        let (scene, (t_a, t_b)) = (&self.oracle, self.oracle.lit().expect("a lit scene"));
+        let radiance = if self.integrated { scene.radiance() } else { 0.0 };
+        [scene.h(), scene.t_h(), t_a, t_b, scene.integrand(self.t), radiance]
+            .into_iter()
+            .chain(Strategy::ALL.map(|strategy| scene.pdf(strategy, self.t)))
+            .chain(Strategy::ALL.map(|strategy| scene.cdf(strategy, self.t)))
+            .collect()
+    }
+
+    fn exact(&self, scene: &Scene, t: &Big) -> Vec<Big> {
+        let lit = scene.lit().expect("what is lit for the oracle is lit");
+        let radiance = if self.integrated { scene.radiance(&lit) } else { big(0.0) };
+        let (pdfs, cdfs): (Vec<_>, Vec<_>) = Densities::new(scene, &lit).at(t).into_iter().unzip();
+        let [t_a, t_b] = lit;
+        let first = [scene.h.clone(), scene.t_h.clone(), t_a, t_b, scene.integrand(t), radiance];
+        first.into_iter().chain(pdfs).chain(cdfs).collect()
+    }
+
+    /// What becomes of the exact values where the point, the emitter, or where its light begins or ends, moves along the
+    /// ray by 4 ulp of `t` or `t'`: `t`, `t_h` and `lit` are rounded to f64, so no f64 oracle can tell the difference.
+    fn within_a_few_ulp(&self) -> [Vec<Big>; 3] {
+        let (t_a, t_b) = self.oracle.lit().expect("a lit scene");
+        let t_h = self.oracle.t_h();
+        let delta = |t: f64| big(4.0 * f64::EPSILON * t.abs().max((t - t_h).abs()));
+        // inwards
+        let moved = if self.t < 0.5 * (t_a + t_b) { big(self.t) + delta(self.t) } else { big(self.t) - delta(self.t) };
+        [
+            self.exact(&self.reference, &moved),
+            self.exact(&self.reference.with_emitter_moved(&delta(t_h)), &big(self.t)),
+            self.exact(&self.reference.with_horizon_moved(&delta(t_a).max(delta(t_b))), &big(self.t)),
+        ]
+    }
+}
+
+/// The largest error of each of the [`QUANTITIES`], beyond what the values `nearby` are away from the exact ones.
+fn worst(values: &[f64], exact: &[Big], nearby: &[Vec<Big>]) -> [f64; QUANTITIES.len()] {
+    QUANTITIES.map(|(_, values_of_it)| {
+        let error = |i: usize| {
+            let slack: f64 = nearby.iter().map(|near| distance(&near[i], &exact[i])).sum();
+            let size = if i < CDF { exact[i].to_f64().value().abs().max(TINY) } else { 1.0 };
+            (distance(&big(values[i]), &exact[i]) - slack).max(0.0) / size
+        };
+        values_of_it.map(error).fold(0.0, f64::max)
+    })
+}
+
+fn distance(a: &Big, b: &Big) -> f64 {
+    (a - b).to_f64().value().abs()
+}
