@@ -125,9 +125,10 @@ impl Arc {
 
     /// The same by the point's distances \[m\] from the start and to the end.
     pub(super) fn between_ends(&self, after_a: f64, before_b: f64) -> Angle {
+        let t_prime = if after_a <= before_b { self.a + after_a } else { self.b - before_b };
         Angle {
-            from_a: subtended(self.h, after_a, self.a, self.a + after_a),
-            to_b: subtended(self.h, before_b, self.b - before_b, self.b),
+            from_a: subtended(self.h, after_a, self.a, t_prime),
+            to_b: subtended(self.h, before_b, t_prime, self.b),
         }
     }
 
