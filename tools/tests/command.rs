@@ -178,7 +178,7 @@ fn json_on_standard_output_stands_alone() {
     assert_eq!(figures["wavefront_rays"], 65_536);
     let results = figures["results"].as_array().unwrap();
     let strategies: Vec<_> = results.iter().map(|row| row["strategy"].as_str().unwrap()).collect();
-    assert_eq!(strategies, Strategy::ALL.map(Strategy::name));
+    assert_eq!(strategies, Strategy::ALL.iter().map(|strategy| strategy.name()).collect::<Vec<_>>());
     for row in results {
         let mut keys: Vec<_> = row.as_object().unwrap().keys().collect();
         keys.sort();
