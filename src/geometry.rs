@@ -26,16 +26,16 @@ pub(crate) struct EmitterLanes<I: Isa> {
 /// One end of the lit interval.
 #[derive(Clone, Copy)]
 pub(crate) struct End<I: Isa> {
-    /// Distance along the ray \[m\].
+    /// Distance along the ray \[m\], rounded.
     pub(crate) t: I::V,
+    /// What the rounding left: 0 where the ray itself ends.
+    t_low: I::V,
     /// `t - t_h` \[m\].
     pub(crate) t_prime: I::V,
     /// Distance to the emitter \[m\].
     pub(crate) r: I::V,
     /// The cosine `N` there: exactly 0 where the interval was clipped, 1 without a normal.
     pub(crate) n: I::V,
-    /// Whether `N = 0` set this end, rather than the ray.
-    clipped: I::Mask,
 }
 
 /// A point of the ray.
@@ -136,18 +136,25 @@ impl<I: Isa> Geometry<I> {
         let r = |t_prime: I::V| t_prime.mul_add(t_prime, h * h).sqrt();
         let (ra, rb) = (r(ta), r(tb));
 
-        // The distance of a clipped end: from the other end, or from t_h where that is nearer.
-        let by_foot = I::V::narrow(t_h + tn.widen());
-        let near_foot = tn.abs().lt(length);
-        let t_a = I::V::select(clip_a, I::V::select(near_foot, by_foot, t_max - length), ray.t_min);
-        let t_b = I::V::select(clip_b, I::V::select(near_foot, by_foot, ray.t_min + length), t_max);
+        // Where N = 0: t' with a Newton step, as the density may change faster than t' is rounded.
+        let m_n = I::V::narrow(beta_exact.mul_add(tn.widen(), alpha_h));
+        let exact_t_n = (t_h + tn.widen()) - (m_n * inv_beta).widen();
+        let t_n = I::V::narrow(exact_t_n).max(ray.t_min).min(t_max);
+        let t_n_low = I::V::narrow(exact_t_n - t_n.widen());
+        let end = |clip: I::Mask, t: I::V, t_prime: I::V, r: I::V, n: I::V| End {
+            t: I::V::select(clip, t_n, t),
+            t_low: I::V::select(clip, t_n_low, c(0.0)),
+            t_prime,
+            r,
+            n,
+        };
         let cosine = |m: I::V, r: I::V, clipped| {
             let n = I::V::select(has_normal, m / r, c(1.0));
             I::V::select(clipped, c(0.0), n)
         };
 
-        let a = End { t: t_a.max(ray.t_min), t_prime: ta, r: ra, n: cosine(m_a, ra, clip_a), clipped: clip_a };
-        let b = End { t: t_b.min(t_max), t_prime: tb, r: rb, n: cosine(m_b, rb, clip_b), clipped: clip_b };
+        let a = end(clip_a, ray.t_min, ta, ra, cosine(m_a, ra, clip_a));
+        let b = end(clip_b, t_max, tb, rb, cosine(m_b, rb, clip_b));
 
         // Below these f32 has no more to say about an interval: it subtends 1e-30 rad, is 1e-36 of r^2, or takes in
         // 1e-25 of the light.
@@ -237,7 +244,7 @@ impl<I: Isa> Geometry<I> {
         let rising = isa.splat(0.0).le(self.beta);
         let m_end = I::V::select(rising, self.a.n * self.a.r, self.b.n * self.b.r);
         let m = self.beta.abs().mul_add(I::V::select(rising, from_a, to_b), m_end);
-        let t = self.distance(isa, t_prime, from_a, to_b);
+        let t = self.distance(t_prime, from_a, to_b);
         Point { t, t_prime, exact_t_prime: t_prime.widen(), r, m }
     }
 
@@ -263,15 +270,20 @@ impl<I: Isa> Geometry<I> {
     /// The start of the lit interval.
     #[inline(always)]
     pub(crate) fn start(&self) -> Point<I> {
-        let End { t, t_prime, r, n, clipped: _ } = self.a;
+        let End { t, t_low: _, t_prime, r, n } = self.a;
         Point { t, t_prime, exact_t_prime: t_prime.widen(), r, m: n * r }
     }
 
     /// The distance of a point of the lit interval from its start \[m\].
     #[inline(always)]
-    pub(crate) fn from_a(&self, isa: I, point: &Point<I>) -> I::V {
-        let clipped = self.rest(isa, self.t_max - point.t, point.t_prime, self.a.t_prime);
-        I::V::select(self.a.clipped, clipped, point.t - self.t_min).max(isa.splat(0.0))
+    pub(crate) fn way_from_a(&self, isa: I, point: &Point<I>) -> I::V {
+        ((point.t - self.a.t) - self.a.t_low).max(isa.splat(0.0))
+    }
+
+    /// And from its end.
+    #[inline(always)]
+    pub(crate) fn way_to_b(&self, isa: I, point: &Point<I>) -> I::V {
+        ((self.b.t - point.t) + self.b.t_low).max(isa.splat(0.0))
     }
 
     /// `X = t' + r` \[m\], without cancellation: `exp(-mu_t X)` is the transmittance but for a constant.
@@ -289,13 +301,12 @@ impl<I: Isa> Geometry<I> {
         I::V::select(self.length.lt(size), by_length, (t_prime - far_t_prime).abs())
     }
 
-    /// `t` from the nearest of the places that are known exactly: `t_h` and the ends that were not clipped.
+    /// `t` from the nearest of the places that are known exactly: the ends, and `t_h`.
     #[inline(always)]
-    fn distance(&self, isa: I, t_prime: I::V, from_a: I::V, to_b: I::V) -> I::V {
-        let infinite = isa.splat(f32::INFINITY);
-        let from_a = I::V::select(self.a.clipped, infinite, from_a);
-        let to_b = I::V::select(self.b.clipped, infinite, to_b);
-        let by_end = I::V::select(to_b.lt(from_a), self.b.t - to_b, self.a.t + from_a);
+    fn distance(&self, t_prime: I::V, from_a: I::V, to_b: I::V) -> I::V {
+        let by_a = self.a.t + (self.a.t_low + from_a);
+        let by_b = self.b.t + (self.b.t_low - to_b);
+        let by_end = I::V::select(to_b.lt(from_a), by_b, by_a);
         let by_foot = I::V::narrow(self.t_h + t_prime.widen());
         let t = I::V::select(t_prime.abs().lt(from_a.min(to_b)), by_foot, by_end);
         t.max(self.a.t).min(self.b.t)

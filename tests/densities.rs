@@ -39,7 +39,7 @@ fn cases() -> Vec<Case> {
 
 /// Every case with every strategy.
 fn each() -> impl Iterator<Item = (Case, Strategy)> {
-    cases().into_iter().flat_map(|case| Strategy::ALL.map(|strategy| (case, strategy)))
+    cases().into_iter().flat_map(|case| Strategy::ALL.iter().map(move |&strategy| (case, strategy)))
 }
 
 /// 0, 1, their neighbours, and `n` between.

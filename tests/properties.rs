@@ -97,7 +97,7 @@ proptest! {
     #[test]
     fn samples_are_in_range(rows in prop::collection::vec((case(), variate()), 1..20)) {
         let columns = Columns::new(rows.clone());
-        for strategy in airlight::Strategy::ALL {
+        for &strategy in airlight::Strategy::ALL {
             let sampler = Sampler::new(strategy);
             let drawn = columns.sample(&sampler);
             let counts = drawn.counts;
@@ -135,7 +135,7 @@ proptest! {
         rows in prop::collection::vec((case(), prop_oneof![decades(-9.0..18.0), 0f32..20.0, Just(0f32)]), 1..20),
     ) {
         let columns = Columns::new(rows.clone());
-        for strategy in airlight::Strategy::ALL {
+        for &strategy in airlight::Strategy::ALL {
             let sampler = Sampler::new(strategy);
             let (pdf, integrand) = (columns.pdf(&sampler), columns.evaluate(&sampler));
             for (i, (case, t)) in rows.iter().enumerate() {

@@ -199,10 +199,12 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
         let root = f_0.mul_add(f_0, (f_1 - f_0) * (area + area)).max(c(0.0)).sqrt();
         // Off the knots, where the density may be 0.
         let tau = ((area + area) / (f_0 + root).max(c(1e-37))).max(c(1e-7)).min(c(1.0 - f32::EPSILON));
+        // What is left of tau, and of v, is never 0.
+        let left = one - tau;
+        let p_v = tau.mul_add(f_1, left * f_0);
         let v = tau.mul_add(width, v_0);
-        let p_v = tau.mul_add(f_1 - f_0, f_0);
+        let rest = left.mul_add(width, one - (v_0 + width));
 
-        let rest = one - v;
         let y_rest = self.y_c / (self.e + rest);
         let y = y_rest * v;
         let to_y_b = y_rest * rest * ((one + self.e) / self.e);
@@ -211,8 +213,12 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
         let half = c(0.5);
         let from_a = (half * y * (g.h / self.x_a).mul_add(h_x, one)).min(g.length);
         let to_b = (half * to_y_b * (g.h / self.x_b).mul_add(h_x, one)).min(g.length);
-        let t_prime = (half * (x - g.h * h_x)).max(g.a.t_prime).min(g.b.t_prime);
         let r = half * g.h.mul_add(h_x, x);
+        // t' from where the least cancels: X, or an end.
+        let (scale_a, scale_b) = (g.a.t_prime.abs() + from_a, g.b.t_prime.abs() + to_b);
+        let by_end = I::V::select(scale_a.lt(scale_b), g.a.t_prime + from_a, g.b.t_prime - to_b);
+        let by_x = half * (x - g.h * h_x);
+        let t_prime = I::V::select(scale_a.min(scale_b).lt(r), by_end, by_x).max(g.a.t_prime).min(g.b.t_prime);
         let point = g.point_between(isa, from_a, to_b, t_prime, r);
         let s = (self.e + rest) / (one + self.e);
         let pdf = self.pdf_over_v(isa, p_v, s, x, r);
@@ -224,12 +230,17 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
         let c = |x| isa.splat(x);
         let (g, one) = (geometry, c(1.0));
         let x = g.x(isa, point.t_prime, point.r);
-        let y = (g.from_a(isa, point) * ((self.x_a + x) / (g.a.r + point.r))).min(self.y_b);
+        let y = (g.way_from_a(isa, point) * ((self.x_a + x) / (g.a.r + point.r))).min(self.y_b);
+        let to_y_b = g.way_to_b(isa, point) * ((self.x_b + x) / (g.b.r + point.r));
         let s = self.y_c / (y + self.y_c);
         let v = (y * (one + self.e) / (y + self.y_c)).min(one);
+        let rest = (to_y_b * (self.e * s) / self.y_c).min(one);
         let (segment, _) = self.segment(isa, |i, _| c(Self::V[i]).le(v));
-        let tau = (v - segment.v_0) / segment.width;
-        let p_v = tau.mul_add(segment.f_1 - segment.f_0, segment.f_0);
+        // Next to the end the density may vanish as 1 - v, which v alone does not tell.
+        let from_0 = (v - segment.v_0).max(c(0.0));
+        let last = c(Self::V[K - 2]).le(v);
+        let to_1 = I::V::select(last, rest, segment.width - from_0).max(c(0.0));
+        let p_v = segment.f_1.mul_add(from_0, segment.f_0 * to_1) / segment.width;
         self.pdf_over_v(isa, p_v, s, x, point.r)
     }
 }

@@ -14,6 +14,8 @@ const WEIGHED: usize = 16;
 const VANISHING: f64 = 1e-3;
 /// The change of `u` that the weight's error allows for: what the CDF is promised to.
 const VARIATE: f64 = 1.0 / (1 << 20) as f64;
+/// What is left of `u` at either end.
+const OFF_THE_ENDS: f64 = f64::EPSILON / 2.0;
 /// Optical depth up to which the integrand and the weight are compared.
 const DEPTH: f64 = 30.0;
 /// 2^-24.
@@ -45,7 +47,8 @@ pub struct Errors {
     pub r: Vec<f64>,
     /// The integrand at the returned `t`, in ulp.
     pub integrand: Vec<f64>,
-    /// The weight against that of the exact inverse, relative, beyond what 2^-20 of `u` change it.
+    /// The weight against that of the exact inverse, relative, beyond what 2^-20 of `u` change it; or against that of
+    /// the returned `t`.
     pub weight: Vec<f64>,
     /// Rays for which something is NaN or infinite.
     pub nonfinite: usize,
@@ -111,10 +114,12 @@ impl Errors {
             self.nonfinite += usize::from(row.nonfinite);
             self.out_of_range += usize::from(row.out_of_range);
             self.misjudged += usize::from(row.misjudged);
-            for (list, error) in self.lists_mut().into_iter().zip(row.errors) {
+            // An error that is no number is as bad as can be.
+            let errors = row.errors.map(|error| error.map(|error| if error.is_nan() { f64::INFINITY } else { error }));
+            for (list, error) in self.lists_mut().into_iter().zip(errors) {
                 list.extend(error);
             }
-            for (worst, error) in self.worst.iter_mut().zip(row.errors) {
+            for (worst, error) in self.worst.iter_mut().zip(errors) {
                 if let Some(error) = error
                     && worst.is_none_or(|(so_far, _)| error > so_far)
                 {
@@ -210,11 +215,11 @@ impl Row {
             Some(cdf),
             Some(cdf / (0.5 * (high - low)).max(HALF_ULP_OF_1)),
             weigh.then(|| cdf_floor(&scene, strategy, u)),
-            Some((low - u).max(u - high).max(0.0)),
+            Some(beyond([low, high], u)),
             pdf_error(&scene, strategy, lit, t.into(), pdf_at_t.into()),
             Some(r_error(&scene, t, r.into())),
             integrand_error(&scene, t.into(), integrand.into()),
-            weigh.then(|| weight_error(&scene, strategy, u, weight.into())).flatten(),
+            weigh.then(|| weight_error(&scene, strategy, u, t.into(), weight.into())).flatten(),
         ];
         row
     }
@@ -240,29 +245,37 @@ fn r_error(scene: &Scene, t: f32, r: f64) -> f64 {
     let t_prime = (f64::from(t) - scene.t_h()).abs();
     let ulp_of_t = f64::from(t.next_up()) - f64::from(t);
     let [nearest, farthest] = [(t_prime - ulp_of_t).max(0.0), t_prime + ulp_of_t].map(|x| scene.h().hypot(x));
-    (nearest - r).max(r - farthest).max(0.0) / ulp(scene.r(t.into()))
+    beyond([nearest, farthest], r) / ulp(scene.r(t.into()))
 }
 
 fn integrand_error(scene: &Scene, t: f64, integrand: f64) -> Option<f64> {
     let exact = scene.integrand(t);
     let size = exact * (VANISHING / scene.cosine(t)).max(1.0);
-    (depth(scene, t) < DEPTH && exact > TINY).then(|| (integrand - exact).abs() / ulp(size))
+    let comparable = depth(scene, t) < DEPTH && exact > TINY && size < 1.0 / TINY;
+    comparable.then(|| (integrand - exact).abs() / ulp(size))
 }
 
-fn weight_error(scene: &Scene, strategy: Strategy, u: f64, weight: f64) -> Option<f64> {
-    let exact = |u: f64| {
-        let t = scene.invert(strategy, u.clamp(0.0, 1.0));
-        (t, scene.integrand(t) / scene.pdf(strategy, t))
-    };
-    let (t, w) = exact(u);
+/// A weight is right if it is that of the returned `t`, or where `t` cannot tell that of a variate near `u`.
+fn weight_error(scene: &Scene, strategy: Strategy, u: f64, t: f64, weight: f64) -> Option<f64> {
+    let at = |t: f64| (t, scene.integrand(t) / scene.pdf(strategy, t));
+    let exact = |u: f64| at(scene.invert(strategy, u));
+    let of_t = (weight - at(t).1).abs() / weight;
+    let off_the_ends = u.clamp(OFF_THE_ENDS, 1.0 - OFF_THE_ENDS);
+    let (t, w) = exact(off_the_ends);
     let comparable = depth(scene, t) < DEPTH && w > TINY && scene.cosine(t) > VANISHING;
-    let [(_, before), (_, after)] = [exact(u - VARIATE), exact(u + VARIATE)];
-    let [low, high] = [w.min(before).min(after), w.max(before).max(after)];
-    comparable.then(|| (low - weight).max(weight - high).max(0.0) / w)
+    // At an end where the density vanishes the weight is a limit, and no number.
+    let around = [(u - VARIATE).max(0.0), u, off_the_ends, (u + VARIATE).min(1.0)].map(|u| exact(u).1);
+    let [low, high] = [around.into_iter().fold(w, f64::min), around.into_iter().fold(w, f64::max)];
+    comparable.then(|| (beyond([low, high], weight) / w).min(of_t))
 }
 
 fn depth(scene: &Scene, t: f64) -> f64 {
     scene.mu_t() * (t - scene.interval().0 + scene.r(t))
+}
+
+/// How far `x` is outside an interval; not a number where one of them is none.
+fn beyond([low, high]: [f64; 2], x: f64) -> f64 {
+    if low <= x && x <= high { 0.0 } else { if x < low { low - x } else { x - high } }
 }
 
 /// Whether the lit interval is so short that it may as well count as empty, as [`airlight::Counts::empty`] says.

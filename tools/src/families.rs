@@ -142,11 +142,12 @@ impl Case {
         Ok(Scene::new(&ray, &emitter, &Medium::new(self.mu_a, self.mu_s, self.g)?))
     }
 
-    /// Whether a coordinate is beyond what is promised to be told from invalid, or `mu_s` next to nothing.
+    /// Whether a coordinate is beyond what is promised to be told from invalid, `mu_s` next to nothing, or `mu_t` the
+    /// inverse of no length that is resolved.
     #[must_use]
     pub fn is_extreme(&self) -> bool {
         let farthest = self.origin.abs().max_element().max(self.position.abs().max_element());
-        farthest > FARTHEST || (self.mu_s > 0.0 && self.mu_s < 1e-30)
+        farthest > FARTHEST || (self.mu_s > 0.0 && self.mu_s < 1e-30) || self.mu_a + self.mu_s > 1e12
     }
 
     fn generic(draw: &mut Draw) -> Self {
