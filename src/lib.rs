@@ -52,6 +52,8 @@
 //! | (13)-(20) Taylor expansion of the phase function | `strategy/taylor_phase`; [`oracle::paper`] |
 //! | (22)-(30) the integral of polynomial times cosine | [`oracle::paper`]; `strategy/taylor` has a form that does not cancel |
 //!
+//! The product densities (`strategy/product`) are our own derivation.
+//!
 //! # Reproducibility
 //!
 //! Equal inputs give equal bits, whatever the number of threads, the length of the batch or the place in it. Between
@@ -72,6 +74,7 @@ mod strategy;
 
 pub use batch::{Counts, Emitters, Media, Rays, Samples};
 pub use error::Error;
+pub use glam;
 pub use sampler::{Sample, Sampler};
 pub use scene::{Emitter, FARTHEST, Medium, Ray, UNIT_TOLERANCE};
 pub use simd::Backend;

@@ -55,7 +55,7 @@ impl Sampler {
     /// makes its ray invalid. Equal inputs give equal bits, wherever they stand in a batch and however many threads
     /// there are.
     ///
-    /// Beyond the rounding of `t` to f32 the CDF at `t` is within 2^-20 of `u` (2^-17 for the Taylor densities), and the
+    /// Beyond the rounding of `t` to f32 the CDF at `t` is within 2^-20 of `u` (2^-17 for the Taylor and product densities), and the
     /// weight is that of a variate so near to `u`, within 1e-3 for 99.9 % of the rays (1e-5 for most), as measured by
     /// `airlight accuracy`. At u = 0 and 1 a density that vanishes there is sampled next to the end.
     ///
@@ -115,8 +115,8 @@ impl Sampler {
     ///
     /// It is the density of what [`sample`](Self::sample) returns, taken at `t` as rounded: where `t` resolves `r` the
     /// two agree within 1e-5, next to the emitter that of `sample` is the exact one. Relative error at a given `t`: below
-    /// 8 ulp for 99 % of rays (48 for the Taylor densities), 64 (256) for 99.99 %; where the density vanishes with N,
-    /// relative to a thousandth of its mean over the angle. A density below f32's range is 0.
+    /// 8 x 2^-24 for 99 % of rays (48 for the Taylor densities, 64 for the product), 64 (256) for 99.99 %; where the
+    /// density vanishes with N, relative to a thousandth of its mean over the angle. A density below f32's range is 0.
     ///
     /// [`Counts::sampled`] counts the rays that have a sample, whether or not it could be at `t`. A NaN in `t` makes
     /// its ray invalid.
@@ -155,7 +155,7 @@ impl Sampler {
         Ok(road::travel::<road::Evaluate>(self.backend, Strategy::EquiAngular, &inputs, integrand))
     }
 
-    /// [`sample`](Self::sample) for one ray; `None` if it has no sample.
+    /// [`sample`](Self::sample) for one ray; `None` if it has no sample, or `u` is not in `[0, 1]`.
     #[must_use]
     pub fn sample_one(&self, ray: &Ray, emitter: &Emitter, medium: &Medium, u: f32) -> Option<Sample> {
         let [mut t, mut pdf, mut weight, mut r] = [0.0; 4];

@@ -89,7 +89,7 @@ impl Coordinates {
     fn step(&self, size: f32, draw: &mut Draw) -> Self {
         let mut stepped = *self;
         let chosen = 1 + draw.below(31);
-        for (_, number) in stepped.numbers.iter_mut().enumerate().filter(|(i, _)| chosen >> i & 1 == 1) {
+        for (_, number) in stepped.numbers.iter_mut().enumerate().filter(|(i, _)| (chosen >> i) & 1 == 1) {
             // a heavy tail, for a look elsewhere
             let far = size * draw.pick(&[-1.0, 1.0]) * draw.log_between(0.01, 3.0);
             *number = (*number + far).clamp(-1.0, 1.0);

@@ -39,3 +39,11 @@ pub(crate) fn positive(text: &str) -> Result<usize, String> {
         _ => Err("expected a whole number of at least 1".to_owned()),
     }
 }
+
+/// Reads a number of threads that a machine can bear.
+pub(crate) fn threads(text: &str) -> Result<usize, String> {
+    match positive(text)? {
+        number @ 1..=1024 => Ok(number),
+        _ => Err("expected at most 1024 threads".to_owned()),
+    }
+}

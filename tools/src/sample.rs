@@ -37,8 +37,8 @@ pub(crate) struct Args {
     /// Seed of the variates of all repetitions but the first, whose variates are the wavefront's own
     #[arg(long, default_value_t = 0)]
     seed: u64,
-    /// Threads to sample with [default: one per core]
-    #[arg(long, value_name = "N", value_parser = arguments::positive)]
+    /// Threads to sample with, at most 1024 [default: one per core]
+    #[arg(long, value_name = "N", value_parser = arguments::threads)]
     threads: Option<usize>,
     /// Write the columns t, pdf and weight of the first repetition; takes exactly one --strategy
     #[arg(long, value_name = "FILE.npz")]
