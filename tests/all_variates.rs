@@ -11,17 +11,18 @@ const BATCH: usize = 1 << 20;
 
 /// Rays along z; the emitter at `h` beside and `t_h` along them.
 fn scenes() -> Vec<(Ray, Emitter, Medium)> {
-    let mut scenes = Vec::new();
-    for (t_h, h) in [(-2.0, 0.5), (0.0, 0.7), (3.0, 0.25), (4.0, 0.01)] {
-        for (t_min, t_max) in [(0.0, 6.0), (0.0, f32::INFINITY)] {
-            let ray = Ray::new(Vec3::ZERO, Vec3::Z, t_min, t_max).unwrap();
-            let position = Vec3::new(0.0, h, t_h);
-            let normal = Vec3::new(0.0, -0.8, 0.6);
-            scenes.push((ray, Emitter::point_normal(position, normal).unwrap(), Medium::new(0.1, 0.4, 0.6).unwrap()));
-            scenes.push((ray, Emitter::point(position).unwrap(), Medium::new(0.1, 0.4, -0.3).unwrap()));
-        }
-    }
-    scenes
+    let lit = |t_h, h, t_max, normal: Option<Vec3>, g| {
+        let position = Vec3::new(0.0, h, t_h);
+        let emitter = normal.map_or(Emitter::point(position), |n| Emitter::point_normal(position, n)).unwrap();
+        (Ray::new(Vec3::ZERO, Vec3::Z, 0.0, t_max).unwrap(), emitter, Medium::new(0.1, 0.4, g).unwrap())
+    };
+    let down = Some(Vec3::new(0.0, -0.8, 0.6));
+    vec![
+        lit(-2.0, 0.5, f32::INFINITY, down, 0.6),
+        lit(0.0, 0.7, 6.0, None, -0.3),
+        lit(3.0, 0.25, f32::INFINITY, None, 0.6),
+        lit(4.0, 0.01, 6.0, down, -0.3),
+    ]
 }
 
 /// The largest `f/p` of the oracle on a fine grid of quantiles.

@@ -68,7 +68,9 @@ fn the_pdf_integrates_to_1() {
             let t = scene.invert(variable, x) as f32;
             f64::from(sampler.pdf_one(&case.ray, &case.emitter, &case.medium, t)) / scene.pdf(variable, f64::from(t))
         };
-        let ends: [f64; 17] = std::array::from_fn(|i| i as f64 / 16.0);
+        // A product density has kinks at its knots, which short pieces let the quadrature see.
+        let pieces = if strategy.has_radiance() { 256 } else { 16 };
+        let ends: Vec<f64> = (0..=pieces).map(|i| f64::from(i) / f64::from(pieces)).collect();
         let mass = integrate_pieces(density, &ends, 1e-6);
         assert!((mass - 1.0).abs() <= 1e-5, "{strategy}: {mass}, seed {SEED}, {case:?}");
     }
@@ -133,27 +135,32 @@ fn sample_pdf_and_evaluate_agree_at_the_sample() {
         let (scene, sampler) = (case.oracle(), Sampler::new(strategy));
         let mut columns = Columns::repeat(&case, variates(124));
         let drawn = columns.sample(&sampler);
+        // Between steep knots a product density has the error of v: relative to its mean, not to itself.
+        let spread = scene.invert(strategy, 0.75) - scene.invert(strategy, 0.25);
+        let vanishing = if strategy.has_radiance() { 1e-6 * 0.5 / spread } else { 0.0 };
         columns.0[Columns::GIVEN] = drawn.t.clone();
         let (pdf, integrand) = (columns.pdf(&sampler), columns.evaluate(&sampler));
         for i in 0..columns.len() {
             let [t, pdf_of_sample, weight, r] = drawn.row(i).map(f64::from);
             let [pdf, integrand] = [pdf[i], integrand[i]].map(f64::from);
             let reach = 2.0 * ulp(drawn.t[i].max(drawn.r[i]));
-            let fraction = 1e-5 + scene.mu_t() * reach;
-            let check = |what: &str, value: f64, expected: f64, f: &dyn Fn(f64) -> f64| {
+            // At the knots of a product density the transmittance has the relative error of the optical depth.
+            let knots = if strategy.has_radiance() { 1e-4 } else { 0.0 };
+            let fraction = 1e-5 + knots + scene.mu_t() * reach;
+            let check = |what: &str, value: f64, expected: f64, vanishing: f64, f: &dyn Fn(f64) -> f64| {
                 let (low, high) = range_around(drawn.t[i], reach, f);
-                let allowed = fraction * high + (high - low) + f64::from(f32::MIN_POSITIVE);
+                let allowed = fraction * high + (high - low) + vanishing + f64::from(f32::MIN_POSITIVE);
                 let row = Row(&columns, i);
                 assert!(
                     (value - expected).abs() <= allowed,
                     "{strategy}, {what}: {value:e} is not {expected:e} within {allowed:e}, seed {SEED}: {row}"
                 );
             };
-            check("pdf of sample", pdf_of_sample, pdf, &|t| scene.pdf(strategy, t));
-            check("pdf", pdf, scene.pdf(strategy, t), &|t| scene.pdf(strategy, t));
-            check("weight times pdf", weight * pdf_of_sample, integrand, &|t| scene.integrand(t));
-            check("integrand", integrand, scene.integrand(t), &|t| scene.integrand(t));
-            check("r", r, scene.r(t), &|t| scene.r(t));
+            check("pdf of sample", pdf_of_sample, pdf, vanishing, &|t| scene.pdf(strategy, t));
+            check("pdf", pdf, scene.pdf(strategy, t), vanishing, &|t| scene.pdf(strategy, t));
+            check("weight times pdf", weight * pdf_of_sample, integrand, 0.0, &|t| scene.integrand(t));
+            check("integrand", integrand, scene.integrand(t), 0.0, &|t| scene.integrand(t));
+            check("r", r, scene.r(t), 0.0, &|t| scene.r(t));
         }
     }
 }

@@ -1,6 +1,5 @@
 //! The oracle's word on a subset of a wavefront's rays.
 
-use crate::deviation::variance;
 use crate::strata::Strata;
 use crate::variates;
 use crate::wavefront::Wavefront;
@@ -58,7 +57,8 @@ impl Check {
         let quadrature = self.scenes.iter().flatten().map(|(_, radiance)| radiance).sum::<f64>() / count;
         let of_mean = |(&i, scene): (&usize, &Option<(Scene, f64)>)| {
             let (scene, radiance) = scene.as_ref()?;
-            Some(variance(scene, strategy, *radiance) / strata.samples(i))
+            // By quadrature: a weight with a heavy tail hides its variance from its own samples.
+            Some(scene.relative_variance(strategy)? * radiance * radiance / strata.samples(i))
         };
         // Collected before it is summed: the order must not depend on the threads.
         let variances: Vec<f64> = self.rays.par_iter().zip(&self.scenes).filter_map(of_mean).collect();

@@ -5,7 +5,6 @@
 mod accuracy;
 mod arguments;
 mod check;
-mod deviation;
 mod npy;
 mod output;
 mod progress;
