@@ -46,15 +46,17 @@ pub fn bounds(strategy: Strategy, family: Family) -> Vec<Bound> {
             limit: if closed_form { 16.0 } else { 128.0 } * ULP,
         },
         // A quotient of some five roundings; the Taylor polynomials multiply the error of theta by the slope of their
-        // logarithm, up to 30, and that of h by mu_t h. A product density
-        // has v to half an ulp, over segments of a twentieth.
+        // logarithm, up to 30, and that of h by mu_t h. A product
+        // density has v to half an ulp, over segments of a twentieth.
         Bound {
             figure: "pdf_p99",
             read: |e| quantile(&e.pdf, 0.99),
-            limit: match () {
-                () if closed_form => 8.0,
-                () if taylor => 48.0,
-                () => 64.0,
+            limit: if closed_form {
+                8.0
+            } else if taylor {
+                48.0
+            } else {
+                64.0
             } * ULP,
         },
         // r and t come from one angle by two formulas of some three roundings each; for r alone, at a given t', it is
