@@ -3,7 +3,14 @@
 //! A kernel is written once, generic over [`Isa`]; an instruction set is a thin binding of [`Lanes`] and [`Double`].
 
 pub(crate) mod math;
+mod pair;
 mod portable;
+#[cfg(feature = "measure")]
+mod scalar;
+#[cfg(all(target_arch = "x86_64", feature = "measure"))]
+mod two;
+#[cfg(target_arch = "x86_64")]
+mod x86;
 
 pub(crate) use portable::Portable;
 
@@ -87,39 +94,96 @@ pub(crate) trait Kernel {
 }
 
 /// An instruction set that this CPU has: there is no other way to one than [`available`](Self::available).
+///
+/// Results are equal to the bit on all that are [fused](Self::is_fused). Of the others there is one on x86-64, `portable`
+/// in a build that does not enable FMA, and its results are as accurate as stated.
 #[derive(Clone, Copy, Debug)]
 pub struct Backend(Kind);
 
 #[derive(Clone, Copy, Debug)]
 enum Kind {
-    /// 8 lanes of the crate `wide`, at the target features of the build.
+    #[cfg(target_arch = "x86_64")]
+    Avx512(x86::Avx512),
+    #[cfg(target_arch = "x86_64")]
+    Avx2(x86::Avx2),
     Portable,
+    #[cfg(all(target_arch = "x86_64", feature = "measure"))]
+    TwoAvx2(x86::Avx2),
+    #[cfg(feature = "measure")]
+    Scalar,
 }
 
 impl Backend {
-    /// Every backend that this CPU can run, the widest first.
+    /// Every backend that this CPU can run, the fastest first.
+    ///
+    /// With the feature `measure` also `avx2x2`, where lane groups come in pairs, and `scalar`, one lane.
     pub fn available() -> impl Iterator<Item = Self> {
-        [Self(Kind::Portable)].into_iter()
+        [
+            #[cfg(target_arch = "x86_64")]
+            x86::Avx512::detect().map(Kind::Avx512),
+            #[cfg(target_arch = "x86_64")]
+            x86::Avx2::detect().map(Kind::Avx2),
+            Some(Kind::Portable),
+            #[cfg(all(target_arch = "x86_64", feature = "measure"))]
+            x86::Avx2::detect().map(Kind::TwoAvx2),
+            #[cfg(feature = "measure")]
+            Some(Kind::Scalar),
+        ]
+        .into_iter()
+        .flatten()
+        .map(Self)
     }
 
-    /// The widest available one.
+    /// The fastest available one.
     #[must_use]
     pub fn detect() -> Self {
-        Self(Kind::Portable)
+        Self::available().next().unwrap_or(Self(Kind::Portable))
     }
 
     /// Its name on the command line and in JSON.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self.0 {
+            #[cfg(target_arch = "x86_64")]
+            Kind::Avx512(_) => "avx512",
+            #[cfg(target_arch = "x86_64")]
+            Kind::Avx2(_) => "avx2",
             Kind::Portable => "portable",
+            #[cfg(all(target_arch = "x86_64", feature = "measure"))]
+            Kind::TwoAvx2(_) => "avx2x2",
+            #[cfg(feature = "measure")]
+            Kind::Scalar => "scalar",
+        }
+    }
+
+    /// Whether a multiply-add rounds once. All backends of which this is true give the same bits.
+    #[must_use]
+    pub fn is_fused(self) -> bool {
+        match self.0 {
+            Kind::Portable => cfg!(target_feature = "fma"),
+            #[cfg(any(target_arch = "x86_64", feature = "measure"))]
+            _ => true,
         }
     }
 
     /// Runs `kernel` with these instructions on.
     pub(crate) fn run<K: Kernel>(self, kernel: K) -> K::Output {
         match self.0 {
+            #[cfg(target_arch = "x86_64")]
+            Kind::Avx512(proof) => proof.vectorize(kernel, proof),
+            #[cfg(target_arch = "x86_64")]
+            Kind::Avx2(proof) => proof.vectorize(kernel, proof),
             Kind::Portable => kernel.run(Portable),
+            #[cfg(all(target_arch = "x86_64", feature = "measure"))]
+            Kind::TwoAvx2(proof) => proof.vectorize(kernel, two::Two(proof)),
+            // With FMA in the CPU its `mul_add` is an instruction instead of a call.
+            #[cfg(all(target_arch = "x86_64", feature = "measure"))]
+            Kind::Scalar => match x86::Avx2::detect() {
+                Some(proof) => proof.vectorize(kernel, scalar::Scalar),
+                None => kernel.run(scalar::Scalar),
+            },
+            #[cfg(all(not(target_arch = "x86_64"), feature = "measure"))]
+            Kind::Scalar => kernel.run(scalar::Scalar),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! `wide::f32x8`: the instruction set is whatever the build enables. The reading copy of the trait.
 
+use super::pair::Pair;
 use super::{Double, Isa, Lanes, Number};
-use core::ops::{Add, Mul, Neg, Sub};
 use wide::bytemuck::cast;
 use wide::{f32x8, f64x4, i32x8};
 
@@ -12,15 +12,15 @@ pub(crate) struct Portable;
 impl Isa for Portable {
     type V = f32x8;
     type Mask = f32x8;
-    type Double = F64x8;
+    type Double = Pair<f64x4>;
 
     #[inline(always)]
     fn splat(self, x: f32) -> f32x8 {
         f32x8::splat(x)
     }
     #[inline(always)]
-    fn splat_double(self, x: f64) -> F64x8 {
-        F64x8(f64x4::splat(x), f64x4::splat(x))
+    fn splat_double(self, x: f64) -> Pair<f64x4> {
+        Pair(f64x4::splat(x), f64x4::splat(x))
     }
     #[inline(always)]
     fn load_padded(self, s: &[f32]) -> f32x8 {
@@ -42,7 +42,7 @@ impl Number for f32x8 {
 
 impl Lanes for f32x8 {
     type Mask = f32x8;
-    type Double = F64x8;
+    type Double = Pair<f64x4>;
     const N: usize = 8;
 
     #[inline(always)]
@@ -94,15 +94,15 @@ impl Lanes for f32x8 {
         (cast(bits - (exponent << 23)), f32x8::from_i32x8(exponent))
     }
     #[inline(always)]
-    fn widen(self) -> F64x8 {
+    fn widen(self) -> Pair<f64x4> {
         let [a, b, c, d, e, f, g, h] = self.to_array();
-        F64x8(
+        Pair(
             f64x4::new([f64::from(a), f64::from(b), f64::from(c), f64::from(d)]),
             f64x4::new([f64::from(e), f64::from(f), f64::from(g), f64::from(h)]),
         )
     }
     #[inline(always)]
-    fn narrow(x: F64x8) -> Self {
+    fn narrow(x: Pair<f64x4>) -> Self {
         let [a, b, c, d] = x.0.to_array();
         let [e, f, g, h] = x.1.to_array();
         f32x8::new([a as f32, b as f32, c as f32, d as f32, e as f32, f as f32, g as f32, h as f32])
@@ -114,41 +114,16 @@ impl Lanes for f32x8 {
     }
 }
 
-/// Eight `f64` lanes in two halves.
-#[derive(Clone, Copy)]
-pub(crate) struct F64x8(f64x4, f64x4);
-
-macro_rules! binary_op {
-    ($($Op:ident $op:ident)*) => {$(
-        impl $Op for F64x8 {
-            type Output = Self;
-            #[inline(always)]
-            fn $op(self, o: Self) -> Self {
-                Self($Op::$op(self.0, o.0), $Op::$op(self.1, o.1))
-            }
-        }
-    )*};
-}
-binary_op!(Add add Sub sub Mul mul);
-
-impl Neg for F64x8 {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        Self(-self.0, -self.1)
-    }
-}
-
-impl Number for F64x8 {
+impl Number for f64x4 {
     #[inline(always)]
     fn mul_add(self, m: Self, a: Self) -> Self {
-        Self(self.0.mul_add(m.0, a.0), self.1.mul_add(m.1, a.1))
+        f64x4::mul_add(self, m, a)
     }
 }
 
-impl Double for F64x8 {
+impl Double for f64x4 {
     #[inline(always)]
     fn max(self, o: Self) -> Self {
-        Self(self.0.fast_max(o.0), self.1.fast_max(o.1))
+        self.fast_max(o)
     }
 }

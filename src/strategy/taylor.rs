@@ -91,14 +91,11 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
         // there both terms of N are positive.
         let from_a = n_a.le(n_b);
         let (n_e, s_e) = (I::V::select(from_a, n_a, n_b), I::V::select(from_a, s_a, s_b).abs());
-        let cosine_at = |delta: I::V| {
-            let (sin, cos) = sin_cos(isa, I::V::select(from_a, delta, subtended - delta));
-            let slope = s_e * cos - n_e * sin;
-            (n_e.mul_add(cos, s_e * sin), I::V::select(from_a, slope, -slope))
-        };
         let one = c(1.0);
-        let (n_m, slope_m) = cosine_at(half);
-        let (n_c, slope_c) = cosine_at(width);
+        let (n_m, slope_m) = cosine_at(isa, n_e, s_e, I::V::select(from_a, half, subtended - half));
+        let (n_c, slope_c) = cosine_at(isa, n_e, s_e, I::V::select(from_a, width, subtended - width));
+        let slope_m = I::V::select(from_a, slope_m, -slope_m);
+        let slope_c = I::V::select(from_a, slope_c, -slope_c);
         let n_m = I::V::select(g.has_normal, n_m, one);
         let slope_m = I::V::select(g.has_normal, slope_m, c(0.0));
         let wave = I::V::select(g.has_normal, half, c(0.0));
@@ -157,10 +154,17 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
         // First piece: the angle from its middle, in units of its half width.
         let value = target / self.half.max(c(1e-37)) + self.below;
         let scale = self.mass_1 / self.half.max(c(1e-37));
-        let f = |x: I::V| (x.mul_add(horner_lanes(x, self.integral), -value), horner_lanes(x, self.product));
         let start = self.first_guess(isa, target / self.mass_1);
         let wanted = first & g.lit & g.valid;
-        let root = solve(isa, f, [c(-1.0), c(1.0)], start, scale * c(1.2e-7), wanted);
+        let root = solve(
+            isa,
+            #[inline(always)]
+            |x: I::V| (x.mul_add(horner_lanes(x, self.integral), -value), horner_lanes(x, self.product)),
+            [c(-1.0), c(1.0)],
+            start,
+            scale * c(1.2e-7),
+            wanted,
+        );
         // Off the very ends, where N may be 0.
         let off = self.subtended * c(6e-8);
         let delta = self.half.mul_add(root.x, self.half).max(off);
@@ -223,6 +227,13 @@ impl<I: Isa, E> Taylor<I, E> {
         let p_theta = p * geometry.cosine(isa, point) / (self.mass_1 + self.mass_2);
         Pdf::over_angle(p_theta, geometry.h, point.r)
     }
+}
+
+/// N and its derivative at the angle `delta` from an end where they are `n` and `s`.
+#[inline(always)]
+fn cosine_at<I: Isa>(isa: I, n: I::V, s: I::V, delta: I::V) -> (I::V, I::V) {
+    let (sin, cos) = sin_cos(isa, delta);
+    (n.mul_add(cos, s * sin), s * cos - n * sin)
 }
 
 #[inline(always)]

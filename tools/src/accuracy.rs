@@ -3,6 +3,7 @@
 use crate::arguments::{self, Json};
 use crate::{output, progress, table};
 use airlight::{Backend, Sampler, Strategy};
+use airlight_tools::backends::distinct;
 use airlight_tools::bounds::bounds;
 use airlight_tools::errors::{Errors, quantile};
 use airlight_tools::families::Family;
@@ -42,7 +43,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode> {
     let json = args.json.target()?;
     let strategies = if args.strategy.is_empty() { Strategy::ALL } else { &args.strategy };
     let families = if args.family.is_empty() { &Family::ALL[..] } else { &args.family };
-    let backends: Vec<Backend> = Backend::available().collect();
+    let backends: Vec<Backend> = distinct().collect();
 
     let runs = backends.len() * families.len() * strategies.len();
     let progress = progress::bar(runs.saturating_mul(args.rays))?;

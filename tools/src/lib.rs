@@ -2,6 +2,7 @@
 //! variances of the densities on them.
 
 pub mod adversary;
+pub mod backends;
 pub mod bounds;
 pub mod contender;
 mod draw;

@@ -1,0 +1,117 @@
+//! Two of a kind side by side: the halves of a wide double, or two lane groups in flight.
+
+use super::{Double, Lanes, Number};
+use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
+
+/// What is done to it is done to both.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pair<T>(pub(super) T, pub(super) T);
+
+macro_rules! binary_op {
+    ($($Op:ident $op:ident)*) => {$(
+        impl<T: $Op<Output = T>> $Op for Pair<T> {
+            type Output = Self;
+            #[inline(always)]
+            fn $op(self, o: Self) -> Self {
+                Self(self.0.$op(o.0), self.1.$op(o.1))
+            }
+        }
+    )*};
+}
+binary_op!(Add add Sub sub Mul mul Div div BitAnd bitand BitOr bitor);
+
+impl<T: Neg<Output = T>> Neg for Pair<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(-self.0, -self.1)
+    }
+}
+
+impl<T: Not<Output = T>> Not for Pair<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn not(self) -> Self {
+        Self(!self.0, !self.1)
+    }
+}
+
+impl<T: Number> Number for Pair<T> {
+    #[inline(always)]
+    fn mul_add(self, m: Self, a: Self) -> Self {
+        Self(self.0.mul_add(m.0, a.0), self.1.mul_add(m.1, a.1))
+    }
+}
+
+impl<D: Double> Double for Pair<D> {
+    #[inline(always)]
+    fn max(self, o: Self) -> Self {
+        Self(self.0.max(o.0), self.1.max(o.1))
+    }
+}
+
+impl<V: Lanes> Lanes for Pair<V> {
+    type Mask = Pair<V::Mask>;
+    type Double = Pair<V::Double>;
+    const N: usize = 2 * V::N;
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(self.0.sqrt(), self.1.sqrt())
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self(self.0.abs(), self.1.abs())
+    }
+    #[inline(always)]
+    fn min(self, o: Self) -> Self {
+        Self(self.0.min(o.0), self.1.min(o.1))
+    }
+    #[inline(always)]
+    fn max(self, o: Self) -> Self {
+        Self(self.0.max(o.0), self.1.max(o.1))
+    }
+    #[inline(always)]
+    fn lt(self, o: Self) -> Self::Mask {
+        Pair(self.0.lt(o.0), self.1.lt(o.1))
+    }
+    #[inline(always)]
+    fn le(self, o: Self) -> Self::Mask {
+        Pair(self.0.le(o.0), self.1.le(o.1))
+    }
+    #[inline(always)]
+    fn eq(self, o: Self) -> Self::Mask {
+        Pair(self.0.eq(o.0), self.1.eq(o.1))
+    }
+    #[inline(always)]
+    fn select(m: Self::Mask, yes: Self, no: Self) -> Self {
+        Self(V::select(m.0, yes.0, no.0), V::select(m.1, yes.1, no.1))
+    }
+    #[inline(always)]
+    fn bits(m: Self::Mask) -> u32 {
+        V::bits(m.0) | V::bits(m.1) << V::N
+    }
+    #[inline(always)]
+    fn pow2(self) -> Self {
+        Self(self.0.pow2(), self.1.pow2())
+    }
+    #[inline(always)]
+    fn split(self) -> (Self, Self) {
+        let ((m_0, e_0), (m_1, e_1)) = (self.0.split(), self.1.split());
+        (Self(m_0, m_1), Self(e_0, e_1))
+    }
+    #[inline(always)]
+    fn widen(self) -> Self::Double {
+        Pair(self.0.widen(), self.1.widen())
+    }
+    #[inline(always)]
+    fn narrow(d: Self::Double) -> Self {
+        Self(V::narrow(d.0), V::narrow(d.1))
+    }
+    #[inline(always)]
+    fn store_prefix(self, out: &mut [f32]) {
+        let (low, high) = out.split_at_mut(out.len().min(V::N));
+        self.0.store_prefix(low);
+        self.1.store_prefix(high);
+    }
+}

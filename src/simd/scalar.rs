@@ -1,0 +1,114 @@
+//! One lane and no vector instruction: what the plumbing of the wide sets with FMA has to give, to the bit.
+
+use super::{Double, Isa, Lanes, Number};
+
+/// Needs no CPU check; without FMA in the CPU `mul_add` is slow, and the same.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Scalar;
+
+impl Isa for Scalar {
+    type V = f32;
+    type Mask = bool;
+    type Double = f64;
+
+    #[inline(always)]
+    fn splat(self, x: f32) -> f32 {
+        x
+    }
+    #[inline(always)]
+    fn splat_double(self, x: f64) -> f64 {
+        x
+    }
+    #[inline(always)]
+    fn load_padded(self, s: &[f32]) -> f32 {
+        s[0]
+    }
+}
+
+impl Number for f32 {
+    #[inline(always)]
+    fn mul_add(self, m: Self, a: Self) -> Self {
+        f32::mul_add(self, m, a)
+    }
+}
+
+impl Lanes for f32 {
+    type Mask = bool;
+    type Double = f64;
+    const N: usize = 1;
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        f32::sqrt(self)
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        f32::abs(self)
+    }
+    #[inline(always)]
+    fn min(self, o: Self) -> Self {
+        if self < o { self } else { o }
+    }
+    #[inline(always)]
+    fn max(self, o: Self) -> Self {
+        if self > o { self } else { o }
+    }
+    #[inline(always)]
+    fn lt(self, o: Self) -> bool {
+        self < o
+    }
+    #[inline(always)]
+    fn le(self, o: Self) -> bool {
+        self <= o
+    }
+    #[inline(always)]
+    fn eq(self, o: Self) -> bool {
+        self == o
+    }
+    #[inline(always)]
+    fn select(m: bool, yes: Self, no: Self) -> Self {
+        if m { yes } else { no }
+    }
+    #[inline(always)]
+    fn bits(m: bool) -> u32 {
+        m.into()
+    }
+    #[inline(always)]
+    fn pow2(self) -> Self {
+        f32::from_bits(((self + 12_582_912.0).to_bits().wrapping_add(127)) << 23)
+    }
+    #[inline(always)]
+    fn split(self) -> (Self, Self) {
+        let bits = self.to_bits() as i32;
+        let exponent = bits.wrapping_sub(0x3f35_04f3) >> 23;
+        (f32::from_bits(bits.wrapping_sub(exponent << 23) as u32), exponent as f32)
+    }
+    #[inline(always)]
+    fn widen(self) -> f64 {
+        self.into()
+    }
+    #[inline(always)]
+    fn narrow(d: f64) -> Self {
+        d as f32
+    }
+    #[inline(always)]
+    fn store_prefix(self, out: &mut [f32]) {
+        if let Some(first) = out.first_mut() {
+            *first = self;
+        }
+    }
+}
+
+impl Number for f64 {
+    #[inline(always)]
+    fn mul_add(self, m: Self, a: Self) -> Self {
+        f64::mul_add(self, m, a)
+    }
+}
+
+impl Double for f64 {
+    #[inline(always)]
+    fn max(self, o: Self) -> Self {
+        if self > o { self } else { o }
+    }
+}

@@ -1,0 +1,55 @@
+//! All backends with a fused multiply-add give the same bits, whatever their width: on generic rays and on every family
+//! of hard ones.
+
+use airlight::{Backend, Sampler, Samples, Strategy};
+use airlight_tools::families::{Case, Columns, Family};
+
+/// Per family; the eleven make 2^20 and more.
+const RAYS: u64 = 96_000;
+const SEED: u64 = 301;
+
+/// All that can be asked of a sampler, as bits.
+fn bits(sampler: &Sampler, columns: &Columns) -> Vec<(&'static str, Vec<u32>)> {
+    let (rays, emitters, media) = (columns.rays(), columns.emitters(), columns.media());
+    let mut out = [(); 7].map(|()| vec![0.0f32; columns.u.len()]);
+    let [t, pdf, weight, r, pdf_at_t, integrand, radiance] = &mut out;
+    const EQUAL: &str = "all columns have one length";
+    let mut samples = Samples { t, pdf, weight: Some(weight), r: Some(r) };
+    sampler.sample(&rays, &emitters, &media, &columns.u, &mut samples).expect(EQUAL);
+    sampler.pdf(&rays, &emitters, &media, t, pdf_at_t).expect(EQUAL);
+    sampler.evaluate(&rays, &emitters, &media, t, integrand).expect(EQUAL);
+    if sampler.strategy().has_radiance() {
+        sampler.radiance(&rays, &emitters, &media, radiance).expect(EQUAL);
+    }
+    let names = ["t", "pdf", "weight", "r", "pdf at t", "integrand", "radiance"];
+    names.into_iter().zip(out.map(|column| column.into_iter().map(f32::to_bits).collect())).collect()
+}
+
+#[test]
+fn fused_backends_give_the_same_bits() {
+    let fused: Vec<Backend> = Backend::available().filter(|backend| backend.is_fused()).collect();
+    println!("{:?}", fused.iter().map(|backend| backend.name()).collect::<Vec<_>>());
+    let (first, others) = fused.split_first().expect("a fused backend");
+    let wide = Backend::detect().name() != "portable";
+    assert!(!wide || others.len() >= 2, "no backend was compared");
+    for family in Family::ALL {
+        let cases: Vec<Case> = (0..RAYS).map(|i| family.case(SEED, i)).collect();
+        let columns = Columns::new(&cases);
+        for &strategy in Strategy::ALL {
+            let expected = bits(&Sampler::new(strategy).with_backend(*first), &columns);
+            for other in others {
+                let found = bits(&Sampler::new(strategy).with_backend(*other), &columns);
+                for ((name, expected), (_, found)) in expected.iter().zip(&found) {
+                    let differs = (0..expected.len()).find(|&i| expected[i] != found[i]);
+                    if let Some(i) = differs {
+                        let [a, b] = [expected[i], found[i]].map(f32::from_bits);
+                        panic!(
+                            "{strategy}, {family:?}: {name} is {a:e} on {first:?} and {b:e} on {other:?}: {:?}",
+                            cases[i]
+                        );
+                    }
+                }
+            }
+        }
+    }
+}
