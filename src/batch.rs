@@ -104,6 +104,8 @@ pub(crate) struct Inputs<'a> {
     pub(crate) rays: Rays<'a>,
     pub(crate) emitters: Emitters<'a>,
     pub(crate) media: Media<'a>,
+    /// How many rays; columns may be longer.
+    length: usize,
     pub(crate) given: &'a [f32],
     /// How many of them each ray has.
     pub(crate) per_ray: usize,
@@ -112,7 +114,8 @@ pub(crate) struct Inputs<'a> {
 impl<'a> Inputs<'a> {
     /// The inputs, if every column has the same length; nothing is given yet.
     pub(crate) fn new(rays: &Rays<'a>, emitters: &Emitters<'a>, media: &Media<'a>) -> Result<Self, Error> {
-        let inputs = Self { rays: *rays, emitters: *emitters, media: *media, given: &[], per_ray: 0 };
+        let (length, given) = (rays.origin[0].len(), &[]);
+        let inputs = Self { rays: *rays, emitters: *emitters, media: *media, length, given, per_ray: 0 };
         const O: [&str; 3] = ["rays.origin[0]", "rays.origin[1]", "rays.origin[2]"];
         const D: [&str; 3] = ["rays.direction[0]", "rays.direction[1]", "rays.direction[2]"];
         const P: [&str; 3] = ["emitters.position[0]", "emitters.position[1]", "emitters.position[2]"];
@@ -135,6 +138,12 @@ impl<'a> Inputs<'a> {
             inputs.check("media.g", g)?;
         }
         Ok(inputs)
+    }
+
+    /// One ray.
+    pub(crate) fn one(rays: Rays<'a>, emitter: Emitter, medium: Medium, given: &'a [f32]) -> Self {
+        let (emitters, media) = (Emitters::One(emitter), Media::One(medium));
+        Self { rays, emitters, media, length: 1, given, per_ray: 1 }
     }
 
     /// The same with `given`, if its length is that of the batch or a multiple; `name` is what it is called.
@@ -161,140 +170,292 @@ impl<'a> Inputs<'a> {
     }
 
     pub(crate) fn len(&self) -> usize {
-        self.rays.origin[0].len()
+        self.length
     }
 
     /// The rays of `range` alone.
     pub(crate) fn slice(&self, range: Range<usize>) -> Self {
-        let cut = |column: &'a [f32]| &column[range.clone()];
-        Self {
+        let given = &self.given[range.start * self.per_ray..range.end * self.per_ray];
+        Self { length: range.len(), given, ..self.with_columns(|column| &column[range.clone()]) }
+    }
+
+    /// The same with other columns of rays, emitters and media.
+    fn with_columns<'b>(&self, mut other: impl FnMut(&'a [f32]) -> &'b [f32]) -> Inputs<'b>
+    where
+        'a: 'b,
+    {
+        Inputs {
             rays: Rays {
-                origin: self.rays.origin.map(cut),
-                direction: self.rays.direction.map(cut),
-                t_min: cut(self.rays.t_min),
-                t_max: cut(self.rays.t_max),
+                origin: self.rays.origin.map(&mut other),
+                direction: self.rays.direction.map(&mut other),
+                t_min: other(self.rays.t_min),
+                t_max: other(self.rays.t_max),
             },
             emitters: match self.emitters {
+                Emitters::One(emitter) => Emitters::One(emitter),
                 Emitters::Each { position, normal } => {
-                    Emitters::Each { position: position.map(cut), normal: normal.map(cut) }
+                    Emitters::Each { position: position.map(&mut other), normal: normal.map(&mut other) }
                 }
-                one => one,
             },
             media: match self.media {
-                Media::Each { mu_a, mu_s, g } => Media::Each { mu_a: cut(mu_a), mu_s: cut(mu_s), g: cut(g) },
-                one => one,
+                Media::One(medium) => Media::One(medium),
+                Media::Each { mu_a, mu_s, g } => Media::Each { mu_a: other(mu_a), mu_s: other(mu_s), g: other(g) },
             },
-            given: &self.given[range.start * self.per_ray..range.end * self.per_ray],
+            length: self.length,
+            given: self.given,
             per_ray: self.per_ray,
         }
     }
 
+    /// The rays in lane groups.
     #[inline(always)]
-    pub(crate) fn ray_lanes<I: Isa>(&self, isa: I, range: Range<usize>) -> RayLanes<I> {
+    pub(crate) fn ray_groups<I: Isa>(&self) -> RayGroups<'a, I> {
+        let count = self.length.div_ceil(I::V::N);
         let [ox, oy, oz] = self.rays.origin;
         let [dx, dy, dz] = self.rays.direction;
-        RayLanes {
-            origin: [load(isa, ox, &range), load(isa, oy, &range), load(isa, oz, &range)],
-            direction: [load(isa, dx, &range), load(isa, dy, &range), load(isa, dz, &range)],
-            t_min: load(isa, self.rays.t_min, &range),
-            t_max: load(isa, self.rays.t_max, &range),
+        let Rays { t_min, t_max, .. } = self.rays;
+        RayGroups {
+            origin: [cut::<I>(ox, count), cut::<I>(oy, count), cut::<I>(oz, count)],
+            direction: [cut::<I>(dx, count), cut::<I>(dy, count), cut::<I>(dz, count)],
+            t_min: cut::<I>(t_min, count),
+            t_max: cut::<I>(t_max, count),
         }
     }
 }
 
-impl Emitters<'_> {
-    /// The emitters of a lane group; those of the whole batch where there is one.
+/// Columns of rays cut into lane groups, all of them as many.
+pub(crate) struct RayGroups<'a, I: Isa> {
+    origin: [&'a [I::Group]; 3],
+    direction: [&'a [I::Group]; 3],
+    t_min: &'a [I::Group],
+    t_max: &'a [I::Group],
+}
+
+impl<I: Isa> RayGroups<'_, I> {
+    /// How many.
     #[inline(always)]
-    pub(crate) fn lanes<I: Isa>(&self, isa: I, range: Range<usize>) -> EmitterLanes<I> {
+    pub(crate) fn count(&self) -> usize {
+        self.t_min.len()
+    }
+
+    /// The rays of one group.
+    #[inline(always)]
+    pub(crate) fn lanes(&self, isa: I, index: usize) -> RayLanes<I> {
+        RayLanes {
+            origin: load(isa, &self.origin, index),
+            direction: load(isa, &self.direction, index),
+            t_min: isa.load(&self.t_min[index]),
+            t_max: isa.load(&self.t_max[index]),
+        }
+    }
+}
+
+/// The first `count` groups of a column.
+#[inline(always)]
+fn cut<I: Isa>(column: &[f32], count: usize) -> &[I::Group] {
+    &I::groups(column)[..count]
+}
+
+/// One group of each column.
+#[inline(always)]
+fn load<I: Isa>(isa: I, [x, y, z]: &[&[I::Group]; 3], index: usize) -> [I::V; 3] {
+    [isa.load(&x[index]), isa.load(&y[index]), isa.load(&z[index])]
+}
+
+/// A column of as many values as the lanes of every backend need, or a multiple.
+pub(crate) type Pad = [f32; MOST_LANES];
+
+/// Columns for values that are too few to fill the lanes.
+pub(crate) struct Padded {
+    given: Pad,
+    /// Of rays, emitters and media.
+    columns: [Pad; 8 + 6 + 3],
+}
+
+impl Padded {
+    pub(crate) fn new() -> Self {
+        Self { given: [0.0; MOST_LANES], columns: [[f32::NAN; MOST_LANES]; 17] }
+    }
+
+    /// Rays with one value each: those of `inputs` repeated as often as they have some of the values of `range`, then
+    /// invalid ones.
+    pub(crate) fn fill<'b>(&'b mut self, inputs: &Inputs<'b>, range: Range<usize>) -> Inputs<'b> {
+        let per_ray = inputs.per_ray.max(1);
+        let mut free = self.columns.iter_mut();
+        let columns = inputs.with_columns(|column| {
+            let pad = free.next().expect("a pad for every column");
+            for (value, i) in pad.iter_mut().zip(range.clone()) {
+                *value = column[i / per_ray];
+            }
+            pad
+        });
+        if let Some(given) = inputs.given.get(range) {
+            self.given[..given.len()].copy_from_slice(given);
+        }
+        Inputs { length: MOST_LANES, given: &self.given, per_ray: 1, ..columns }
+    }
+}
+
+impl Emitters<'_> {
+    /// The emitters of lane group `index`; those of the whole batch where there is one.
+    #[inline(always)]
+    pub(crate) fn lanes<I: Isa>(&self, isa: I, index: usize) -> EmitterLanes<I> {
         match self {
             Self::One(emitter) => {
                 let [px, py, pz] = emitter.position().to_array();
                 let [nx, ny, nz] = emitter.normal().unwrap_or_default().to_array();
-                EmitterLanes {
-                    position: [isa.splat(px), isa.splat(py), isa.splat(pz)],
-                    normal: [isa.splat(nx), isa.splat(ny), isa.splat(nz)],
-                }
+                let position = [isa.splat(px), isa.splat(py), isa.splat(pz)];
+                EmitterLanes::new(isa, position, [isa.splat(nx), isa.splat(ny), isa.splat(nz)])
             }
-            Self::Each { position: [px, py, pz], normal: [nx, ny, nz] } => EmitterLanes {
-                position: [load(isa, px, &range), load(isa, py, &range), load(isa, pz, &range)],
-                normal: [load(isa, nx, &range), load(isa, ny, &range), load(isa, nz, &range)],
-            },
+            Self::Each { position: [px, py, pz], normal: [nx, ny, nz] } => {
+                let position = load(isa, &[I::groups(px), I::groups(py), I::groups(pz)], index);
+                let normal = load(isa, &[I::groups(nx), I::groups(ny), I::groups(nz)], index);
+                EmitterLanes::new(isa, position, normal)
+            }
+        }
+    }
+
+    /// Those of another group than that of `lanes`.
+    #[inline(always)]
+    pub(crate) fn renew<I: Isa>(&self, isa: I, index: usize, lanes: &mut EmitterLanes<I>) {
+        if let Self::Each { .. } = self {
+            *lanes = self.lanes(isa, index);
         }
     }
 }
 
 impl Media<'_> {
-    /// The media of a lane group.
+    /// The media of lane group `index`.
     #[inline(always)]
-    pub(crate) fn lanes<I: Isa>(&self, isa: I, range: Range<usize>) -> MediumLanes<I> {
+    pub(crate) fn lanes<I: Isa>(&self, isa: I, index: usize) -> MediumLanes<I> {
         match self {
             Self::One(m) => MediumLanes::new(isa, isa.splat(m.mu_a()), isa.splat(m.mu_s()), isa.splat(m.g())),
             Self::Each { mu_a, mu_s, g } => {
-                MediumLanes::new(isa, load(isa, mu_a, &range), load(isa, mu_s, &range), load(isa, g, &range))
+                let [mu_a, mu_s, g] = load(isa, &[I::groups(mu_a), I::groups(mu_s), I::groups(g)], index);
+                MediumLanes::new(isa, mu_a, mu_s, g)
             }
+        }
+    }
+
+    /// Those of another group than that of `lanes`.
+    #[inline(always)]
+    pub(crate) fn renew<I: Isa>(&self, isa: I, index: usize, lanes: &mut MediumLanes<I>) {
+        if let Self::Each { .. } = self {
+            *lanes = self.lanes(isa, index);
         }
     }
 }
 
-/// The lanes of `column` in `range`.
-#[inline(always)]
-fn load<I: Isa>(isa: I, column: &[f32], range: &Range<usize>) -> I::V {
-    isa.load_padded(&column[range.start..range.end])
-}
-
-/// Which of the numbers that lie next to each other for every ray: number `index` of `per_ray`.
+/// Which of the numbers that lie next to each other for every ray of a lane group: number `index` of `per_ray`.
 #[derive(Clone, Copy)]
 pub(crate) struct Turn {
+    pub(crate) group: usize,
     pub(crate) index: usize,
     pub(crate) per_ray: usize,
 }
 
 impl Turn {
-    /// The lanes of this turn for the rays of `range`.
+    /// The numbers of this turn.
     #[inline(always)]
-    pub(crate) fn load<I: Isa>(self, isa: I, column: &[f32], range: &Range<usize>) -> I::V {
+    pub(crate) fn load<I: Isa>(self, isa: I, column: &[f32]) -> I::V {
         if self.per_ray == 1 {
-            return load(isa, column, range);
+            return isa.load(&I::groups(column)[self.group]);
         }
         let mut lanes = [0.0; MOST_LANES];
-        for (lane, ray) in lanes.iter_mut().zip(range.start..range.end) {
-            *lane = column[ray * self.per_ray + self.index];
-        }
-        isa.load_padded(&lanes[..range.len()])
+        self.gather(column, &mut lanes[..I::V::N]);
+        isa.load(&I::groups(&lanes)[0])
     }
 
     /// Writes them.
     #[inline(always)]
-    pub(crate) fn store<V: Lanes>(self, value: V, column: &mut [f32], range: &Range<usize>) {
+    pub(crate) fn store<I: Isa>(self, isa: I, value: I::V, column: &mut [f32]) {
         if self.per_ray == 1 {
-            return value.store_prefix(&mut column[range.start..range.end]);
+            return isa.store(value, &mut I::groups_mut(column)[self.group]);
         }
         let mut lanes = [0.0; MOST_LANES];
-        value.store_prefix(&mut lanes[..range.len()]);
-        for (lane, ray) in lanes.iter().zip(range.start..range.end) {
-            column[ray * self.per_ray + self.index] = *lane;
+        isa.store(value, &mut I::groups_mut(&mut lanes)[0]);
+        self.scatter(&lanes[..I::V::N], column);
+    }
+
+    // Apart: inlined, their addresses are computed for every lane group ahead of the branch that skips them.
+    #[inline(never)]
+    fn gather(self, column: &[f32], lanes: &mut [f32]) {
+        let of_group = &column[self.group * lanes.len() * self.per_ray..];
+        for (lane, of_ray) in lanes.iter_mut().zip(of_group.chunks(self.per_ray)) {
+            *lane = of_ray[self.index];
+        }
+    }
+
+    #[inline(never)]
+    fn scatter(self, lanes: &[f32], column: &mut [f32]) {
+        let of_group = &mut column[self.group * lanes.len() * self.per_ray..];
+        for (lane, of_ray) in lanes.iter().zip(of_group.chunks_mut(self.per_ray)) {
+            of_ray[self.index] = *lane;
         }
     }
 }
 
-/// Columns that a call writes.
-pub(crate) trait Outputs: Sized + Send {
+/// The columns that a call writes, wherever they are.
+pub(crate) trait Outputs {
+    type At<'a>: Send;
+
     /// Their first `k` values, and the rest.
-    fn split_at(self, k: usize) -> (Self, Self);
+    fn split_at<'a>(out: Self::At<'a>, k: usize) -> (Self::At<'a>, Self::At<'a>);
+
+    /// Has `write` write to pads, and takes from there as many values as there are.
+    fn by_pads<R>(out: Self::At<'_>, write: impl FnOnce(Self::At<'_>) -> R) -> R;
 }
 
-impl Outputs for &mut [f32] {
-    fn split_at(self, k: usize) -> (Self, Self) {
-        self.split_at_mut(k)
+/// One column.
+pub(crate) struct Column;
+
+impl Outputs for Column {
+    type At<'a> = &'a mut [f32];
+
+    fn split_at<'a>(out: Self::At<'a>, k: usize) -> (Self::At<'a>, Self::At<'a>) {
+        out.split_at_mut(k)
+    }
+
+    fn by_pads<R>(out: &mut [f32], write: impl FnOnce(&mut [f32]) -> R) -> R {
+        let mut pad: Pad = [0.0; MOST_LANES];
+        let result = write(&mut pad);
+        out.copy_from_slice(&pad[..out.len()]);
+        result
     }
 }
 
-impl Outputs for Samples<'_> {
-    fn split_at(self, k: usize) -> (Self, Self) {
-        let (t, t_rest) = self.t.split_at_mut(k);
-        let (pdf, pdf_rest) = self.pdf.split_at_mut(k);
-        let (weight, weight_rest) = self.weight.map(|column| column.split_at_mut(k)).unzip();
-        let (r, r_rest) = self.r.map(|column| column.split_at_mut(k)).unzip();
-        (Self { t, pdf, weight, r }, Self { t: t_rest, pdf: pdf_rest, weight: weight_rest, r: r_rest })
+/// Those of [`Samples`].
+pub(crate) struct OfSamples;
+
+impl Outputs for OfSamples {
+    type At<'a> = Samples<'a>;
+
+    fn split_at<'a>(out: Self::At<'a>, k: usize) -> (Self::At<'a>, Self::At<'a>) {
+        let (t, t_rest) = out.t.split_at_mut(k);
+        let (pdf, pdf_rest) = out.pdf.split_at_mut(k);
+        let (weight, weight_rest) = out.weight.map(|column| column.split_at_mut(k)).unzip();
+        let (r, r_rest) = out.r.map(|column| column.split_at_mut(k)).unzip();
+        (Samples { t, pdf, weight, r }, Samples { t: t_rest, pdf: pdf_rest, weight: weight_rest, r: r_rest })
+    }
+
+    fn by_pads<R>(out: Samples<'_>, write: impl FnOnce(Samples<'_>) -> R) -> R {
+        let Samples { t, pdf, weight, r } = out;
+        Column::by_pads(t, |t| {
+            Column::by_pads(pdf, |pdf| {
+                let (mut weight_pad, mut r_pad): (Pad, Pad) = ([0.0; MOST_LANES], [0.0; MOST_LANES]);
+                let result = write(Samples {
+                    t,
+                    pdf,
+                    weight: weight.as_ref().map(|_| &mut weight_pad[..]),
+                    r: r.as_ref().map(|_| &mut r_pad[..]),
+                });
+                for (column, pad) in [(weight, weight_pad), (r, r_pad)] {
+                    if let Some(column) = column {
+                        column.copy_from_slice(&pad[..column.len()]);
+                    }
+                }
+                result
+            })
+        })
     }
 }

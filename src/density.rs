@@ -15,6 +15,12 @@ pub(crate) trait Density<I: Isa>: Sized {
     /// The density at a point of the support.
     fn pdf(&self, isa: I, geometry: &Geometry<I>, point: &Point<I>) -> Pdf<I>;
 
+    /// Which lanes can be sampled.
+    #[inline(always)]
+    fn lit(_: I, geometry: &Geometry<I>) -> I::Mask {
+        geometry.lit
+    }
+
     /// The distances `[low, high]` that are sampled \[m\].
     #[inline(always)]
     fn support(geometry: &Geometry<I>) -> [I::V; 2] {

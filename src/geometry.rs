@@ -16,12 +16,31 @@ pub(crate) struct RayLanes<I: Isa> {
     pub(crate) t_max: I::V,
 }
 
-/// Their emitters; the normal (0, 0, 0) stands for none.
+/// Their emitters.
 #[derive(Clone, Copy)]
 pub(crate) struct EmitterLanes<I: Isa> {
-    pub(crate) position: [I::V; 3],
-    pub(crate) normal: [I::V; 3],
+    position: [I::Double; 3],
+    normal: [I::Double; 3],
+    has_normal: I::Mask,
+    valid: I::Mask,
 }
+
+impl<I: Isa> EmitterLanes<I> {
+    /// The normal (0, 0, 0) stands for none.
+    #[inline(always)]
+    pub(crate) fn new(isa: I, position: [I::V; 3], normal: [I::V; 3]) -> Self {
+        let size = normal[0].abs() + normal[1].abs() + normal[2].abs();
+        let none = size.eq(isa.splat(0.0));
+        let farthest = largest::<I>(position).le(isa.splat(FARTHEST));
+        let (position, normal) = (widen::<I>(position), widen::<I>(normal));
+        let excess = I::V::narrow(dot(normal, normal) - isa.splat_double(1.0));
+        let valid = farthest & (excess.abs().le(isa.splat(TOLERANCE)) | none);
+        Self { position, normal, has_normal: !none, valid }
+    }
+}
+
+/// By how much the square of a unit vector's length may differ from 1.
+const TOLERANCE: f32 = 2.001 * UNIT_TOLERANCE;
 
 /// One end of the lit interval.
 #[derive(Clone, Copy)]
@@ -70,7 +89,9 @@ pub(crate) struct Geometry<I: Isa> {
     /// Ends of the ray itself \[m\].
     pub(crate) t_min: I::V,
     pub(crate) t_max: I::V,
-    h_squared: I::Double,
+    /// Of `h^2`: it, or the least that is resolved.
+    foot_squared: I::Double,
+    least_h: I::V,
     t_h: I::Double,
     t_prime_min: I::Double,
     /// `n.(x - y) = alpha_h + beta_exact t'`.
@@ -89,8 +110,8 @@ impl<I: Isa> Geometry<I> {
     pub(crate) fn new(isa: I, ray: &RayLanes<I>, emitter: &EmitterLanes<I>) -> Self {
         let c = |x| isa.splat(x);
         let d = widen::<I>(ray.direction);
-        let n = widen::<I>(emitter.normal);
-        let (y, o) = (widen::<I>(emitter.position), widen::<I>(ray.origin));
+        let o = widen::<I>(ray.origin);
+        let (y, n) = (emitter.position, emitter.normal);
         let e = [y[0] - o[0], y[1] - o[1], y[2] - o[2]];
 
         // 1/|d| by its series about |d| = 1: distances are in metres also where d is not quite a unit vector.
@@ -100,7 +121,7 @@ impl<I: Isa> Geometry<I> {
             .mul_add(q, isa.splat_double(-0.5))
             .mul_add(q, isa.splat_double(1.0));
         let t_h = dot(e, d) * unit;
-        let beta = dot(n, d) * unit;
+        let beta_exact = dot(n, d) * unit;
         let along = t_h * unit;
         let foot = [along.mul_add(d[0], -e[0]), along.mul_add(d[1], -e[1]), along.mul_add(d[2], -e[2])];
         let alpha_h = dot(n, foot);
@@ -109,73 +130,63 @@ impl<I: Isa> Geometry<I> {
         let t_prime_min = ray.t_min.widen() - t_h;
         let t_prime_max = t_max.widen() - t_h;
         let (ta, tb) = (I::V::narrow(t_prime_min), I::V::narrow(t_prime_max));
-        let scale = ta.abs().max(I::V::narrow(t_h).abs());
-        let least = (scale * c(1e-9)).max(c(1e-18)).widen();
-        let h_squared = dot(foot, foot).max(least * least);
-        let h = I::V::narrow(h_squared).sqrt();
+        let foot_squared = dot(foot, foot);
+        let foot_size = I::V::narrow(foot_squared).sqrt();
+        let least_h = (ta.abs().max((ray.t_min - ta).abs()) * c(1e-9)).max(c(1e-18));
+        let h = least_h.max(foot_size);
         let length = t_max - ray.t_min;
 
         // The sign of m = n.(x - y) at the ends decides what is lit.
-        let normal_size = emitter.normal[0].abs() + emitter.normal[1].abs() + emitter.normal[2].abs();
-        let has_normal = !normal_size.eq(c(0.0));
-        let m_a = I::V::narrow(beta.mul_add(t_prime_min, alpha_h));
-        let m_b = I::V::narrow(beta.mul_add(t_prime_max, alpha_h));
+        let has_normal = emitter.has_normal;
+        let m_a = I::V::narrow(beta_exact.mul_add(t_prime_min, alpha_h));
+        let m_b = I::V::narrow(beta_exact.mul_add(t_prime_max, alpha_h));
         let dark_a = has_normal & m_a.le(c(0.0));
         let dark_b = has_normal & m_b.le(c(0.0));
         let both = dark_a & dark_b;
-        let (clip_a, clip_b) = (dark_a & !both, dark_b & !both);
+        let (clip_a, clip_b) = (dark_a & !dark_b, dark_b & !dark_a);
 
-        let beta_exact = beta;
-        let beta = I::V::narrow(beta);
+        // Where N = 0.
+        let beta = I::V::narrow(beta_exact);
         let inv_beta = c(1.0) / beta;
         let tn = (-I::V::narrow(alpha_h) * inv_beta).max(ta).min(tb);
         let lit_length = (I::V::select(clip_a, m_b, m_a) * inv_beta.abs()).min(length);
         let length = I::V::select(clip_a | clip_b, lit_length, length);
-        let ta = I::V::select(clip_a, tn, ta);
-        let tb = I::V::select(clip_b, tn, tb);
-        let r = |t_prime: I::V| t_prime.mul_add(t_prime, h * h).sqrt();
-        let (ra, rb) = (r(ta), r(tb));
-
-        // Where N = 0: t' with a Newton step, as the density may change faster than t' is rounded.
+        // A Newton step, as the density may change faster than t' is rounded.
         let m_n = I::V::narrow(beta_exact.mul_add(tn.widen(), alpha_h));
         let exact_t_n = (t_h + tn.widen()) - (m_n * inv_beta).widen();
         let t_n = I::V::narrow(exact_t_n).max(ray.t_min).min(t_max);
         let t_n_low = I::V::narrow(exact_t_n - t_n.widen());
-        let end = |clip: I::Mask, t: I::V, t_prime: I::V, r: I::V, n: I::V| End {
-            t: I::V::select(clip, t_n, t),
-            t_low: I::V::select(clip, t_n_low, c(0.0)),
-            t_prime,
-            r,
-            n,
+
+        let (ta, tb) = (I::V::select(clip_a, tn, ta), I::V::select(clip_b, tn, tb));
+        let (ra, rb) = (ta.mul_add(ta, h * h).sqrt(), tb.mul_add(tb, h * h).sqrt());
+        let cosine_a = I::V::select(clip_a, c(0.0), I::V::select(has_normal, m_a / ra, c(1.0)));
+        let cosine_b = I::V::select(clip_b, c(0.0), I::V::select(has_normal, m_b / rb, c(1.0)));
+        let a = End {
+            t: I::V::select(clip_a, t_n, ray.t_min),
+            t_low: I::V::select(clip_a, t_n_low, c(0.0)),
+            t_prime: ta,
+            r: ra,
+            n: cosine_a,
         };
-        let cosine = |m: I::V, r: I::V, clipped| {
-            let n = I::V::select(has_normal, m / r, c(1.0));
-            I::V::select(clipped, c(0.0), n)
+        let b = End {
+            t: I::V::select(clip_b, t_n, t_max),
+            t_low: I::V::select(clip_b, t_n_low, c(0.0)),
+            t_prime: tb,
+            r: rb,
+            n: cosine_b,
         };
 
-        let a = end(clip_a, ray.t_min, ta, ra, cosine(m_a, ra, clip_a));
-        let b = end(clip_b, t_max, tb, rb, cosine(m_b, rb, clip_b));
-
-        // Below these f32 has no more to say about an interval: it subtends 1e-30 rad, is 1e-36 of r^2, or takes in
-        // 1e-25 of the light.
+        // Below these f32 has no more to say about an interval: it subtends 1e-30 rad, or is 1e-36 of r^2.
         let rr = ra * rb;
-        let subtends = h * length;
-        let obtuse = h.mul_add(h, ta * tb).lt(c(0.0));
-        let wide = c(1e-18).lt(length)
-            & (rr * c(1e-30)).lt(subtends)
-            & (rr * c(1e-36)).lt(length)
-            & (obtuse | (rr * c(1e-25)).lt(subtends * (a.n + b.n)));
-        let nn = I::V::narrow(dot(n, n) - isa.splat_double(1.0));
-        let tolerance = c(2.001 * UNIT_TOLERANCE);
-        let farthest = largest::<I>(ray.origin).max(largest::<I>(emitter.position));
-        let valid = I::V::narrow(q).abs().le(tolerance)
-            & farthest.le(c(FARTHEST))
-            & (nn.abs().le(tolerance) | normal_size.eq(c(0.0)))
+        let wide = c(1e-18).lt(length) & (rr * c(1e-30)).lt(h * length) & (rr * c(1e-36)).lt(length);
+        let valid = emitter.valid
+            & I::V::narrow(q).abs().le(c(TOLERANCE))
+            & largest::<I>(ray.origin).le(c(FARTHEST))
             & c(0.0).le(ray.t_min)
             & ray.t_min.le(c(FARTHEST))
             & ray.t_min.le(ray.t_max)
-            & h.le(c(4.0 * FARTHEST))
-            & I::V::narrow(t_h).abs().le(c(4.0 * FARTHEST));
+            // No number where one of the coordinates is none.
+            & foot_size.le(c(4.0 * FARTHEST));
 
         Self {
             h,
@@ -186,7 +197,8 @@ impl<I: Isa> Geometry<I> {
             length,
             t_min: ray.t_min,
             t_max,
-            h_squared,
+            foot_squared,
+            least_h,
             t_h,
             t_prime_min,
             alpha_h,
@@ -195,6 +207,15 @@ impl<I: Isa> Geometry<I> {
             lit: wide & !both,
             valid,
         }
+    }
+
+    /// Which lanes have more than 1e-25 of the light that an emitter faced squarely would give: below that N has no more
+    /// to say in f32.
+    #[inline(always)]
+    pub(crate) fn bright(&self, isa: I) -> I::Mask {
+        let rr = self.a.r * self.b.r;
+        let light = (self.h * self.length) * (self.a.n + self.b.n);
+        self.dot_of_ends().lt(isa.splat(0.0)) | (rr * isa.splat(1e-25)).lt(light)
     }
 
     /// The angle `Theta` that the lit interval subtends at the emitter, in `(0, pi]` \[rad\].
@@ -329,7 +350,9 @@ impl<I: Isa> Geometry<I> {
     #[inline(always)]
     pub(crate) fn path(&self, isa: I, point: &Point<I>) -> I::Double {
         let (t_prime, r) = (point.exact_t_prime, point.r.widen());
-        let residual = I::V::narrow(t_prime.mul_add(t_prime, self.h_squared) - r * r);
+        let least = self.least_h.widen();
+        let h_squared = self.foot_squared.max(least * least);
+        let residual = I::V::narrow(t_prime.mul_add(t_prime, h_squared) - r * r);
         let step = residual * isa.splat(0.5) / point.r;
         (t_prime - self.t_prime_min) + (r + step.widen())
     }

@@ -4,7 +4,7 @@
 //! group at a time. No ray's arithmetic knows where in the batch it stands: chunks and threads change no bit.
 
 use crate::Strategy;
-use crate::batch::{Counts, Inputs, Outputs, Samples, Turn};
+use crate::batch::{Column, Counts, Inputs, OfSamples, Outputs, Padded, Samples, Turn};
 use crate::density::Density;
 use crate::geometry::Geometry;
 use crate::integrand::{MediumLanes, integrand_r2};
@@ -16,15 +16,17 @@ use crate::strategy::product::Product;
 use crate::strategy::taylor_phase::OfPhase;
 use crate::strategy::taylor_transmittance::OfTransmittance;
 use crate::strategy::transmittance::Transmittance;
-use core::ops::Range;
 
 /// Values per chunk: up to 22 columns of this many are 352 KiB, which stay in a core's cache.
 const CHUNK: usize = 4096;
 
+/// Where a task writes to.
+pub(crate) type Out<'a, T> = <<T as Task>::Out as Outputs>::At<'a>;
+
 /// What a call does with every ray.
 pub(crate) trait Task {
     /// The columns that it writes.
-    type Out<'a>: Outputs;
+    type Out: Outputs;
 
     /// How many values it writes for each ray.
     fn values_per_ray(inputs: &Inputs<'_>) -> usize {
@@ -32,17 +34,17 @@ pub(crate) trait Task {
     }
 
     /// Takes one chunk the whole way.
-    fn run<I: Isa>(isa: I, strategy: Strategy, inputs: &Inputs<'_>, out: Self::Out<'_>) -> Counts;
+    fn run<I: Isa>(isa: I, strategy: Strategy, inputs: &Inputs<'_>, out: Out<'_, Self>) -> Counts;
 }
 
 /// A task for which every density has a kernel of its own.
 trait OfDensity: Task {
-    fn chunk<I: Isa, D: Density<I>>(isa: I, inputs: &Inputs<'_>, out: Self::Out<'_>) -> Counts;
+    fn chunk<I: Isa, D: Density<I>>(isa: I, inputs: &Inputs<'_>, out: Out<'_, Self>) -> Counts;
 }
 
 /// Chooses the kernel.
 #[inline(always)]
-fn by_strategy<I: Isa, T: OfDensity>(isa: I, strategy: Strategy, inputs: &Inputs<'_>, out: T::Out<'_>) -> Counts {
+fn by_strategy<I: Isa, T: OfDensity>(isa: I, strategy: Strategy, inputs: &Inputs<'_>, out: Out<'_, T>) -> Counts {
     match strategy {
         Strategy::Transmittance => T::chunk::<I, Transmittance<I>>(isa, inputs, out),
         Strategy::EquiAngular => T::chunk::<I, EquiAngular<I>>(isa, inputs, out),
@@ -57,15 +59,15 @@ fn by_strategy<I: Isa, T: OfDensity>(isa: I, strategy: Strategy, inputs: &Inputs
 }
 
 /// Takes a batch the whole way, its chunks spread over the threads.
-pub(crate) fn travel<T: Task>(backend: Backend, strategy: Strategy, inputs: &Inputs<'_>, out: T::Out<'_>) -> Counts {
+pub(crate) fn travel<T: Task>(backend: Backend, strategy: Strategy, inputs: &Inputs<'_>, out: Out<'_, T>) -> Counts {
     // Whole lane groups, however many values a ray has.
     let chunk = (CHUNK / inputs.per_ray.max(1)).next_multiple_of(MOST_LANES).max(MOST_LANES);
     if inputs.len() <= chunk {
-        return backend.run(Chunk::<T> { strategy, inputs, out });
+        return whole_groups::<T>(backend, strategy, inputs, out);
     }
     // Halves of whole chunks, so that a chunk is cut short at the end of the batch alone.
     let half = inputs.len().div_ceil(chunk).div_ceil(2) * chunk;
-    let (out_low, out_high) = out.split_at(half * T::values_per_ray(inputs));
+    let (out_low, out_high) = T::Out::split_at(out, half * T::values_per_ray(inputs));
     let low = || travel::<T>(backend, strategy, &inputs.slice(0..half), out_low);
     let high = || travel::<T>(backend, strategy, &inputs.slice(half..inputs.len()), out_high);
     #[cfg(feature = "rayon")]
@@ -75,11 +77,35 @@ pub(crate) fn travel<T: Task>(backend: Backend, strategy: Strategy, inputs: &Inp
     low + high
 }
 
+/// Takes a chunk the whole way. Kernels only know whole lane groups: the rays at the end that are too few go one value a
+/// lane.
+fn whole_groups<T: Task>(backend: Backend, strategy: Strategy, inputs: &Inputs<'_>, out: Out<'_, T>) -> Counts {
+    let whole = inputs.len() / MOST_LANES * MOST_LANES;
+    let (out_whole, mut out) = T::Out::split_at(out, whole * T::values_per_ray(inputs));
+    let mut counts = Counts::default();
+    if whole > 0 {
+        counts = backend.run(Chunk::<T> { strategy, inputs: &inputs.slice(0..whole), out: out_whole });
+    }
+    let few = inputs.slice(whole..inputs.len());
+    let values = few.len() * T::values_per_ray(&few);
+    for start in (0..values).step_by(MOST_LANES) {
+        let end = values.min(start + MOST_LANES);
+        let (out_here, out_rest) = T::Out::split_at(out, end - start);
+        out = out_rest;
+        let mut padded = Padded::new();
+        let inputs = &padded.fill(&few, start..end);
+        counts = counts + T::Out::by_pads(out_here, |out| backend.run(Chunk::<T> { strategy, inputs, out }));
+        // What fills up is invalid.
+        counts.invalid -= MOST_LANES - (end - start);
+    }
+    counts
+}
+
 /// One chunk on its way to its kernel.
 struct Chunk<'i, 'o, T: Task> {
     strategy: Strategy,
     inputs: &'i Inputs<'i>,
-    out: T::Out<'o>,
+    out: Out<'o, T>,
 }
 
 impl<T: Task> Kernel for Chunk<'_, '_, T> {
@@ -95,8 +121,8 @@ impl<T: Task> Kernel for Chunk<'_, '_, T> {
 struct Group<I: Isa> {
     geometry: Geometry<I>,
     medium: MediumLanes<I>,
-    /// Which rays it holds.
-    range: Range<usize>,
+    /// Which one of the chunk it is.
+    index: usize,
 }
 
 impl<I: Isa> Group<I> {
@@ -105,19 +131,18 @@ impl<I: Isa> Group<I> {
     fn valid(&self) -> I::Mask {
         self.geometry.valid & self.medium.valid
     }
+}
 
-    /// What became of the lanes: `valid` with what was given, and `bisected`.
-    #[inline(always)]
-    fn count(&self, valid: I::Mask, bisected: I::Mask) -> Counts {
-        let present = u32::MAX >> (u32::BITS as usize - self.range.len());
-        let count = |mask: I::Mask| (I::V::bits(mask) & present).count_ones() as usize;
-        let (valid_count, sampled) = (count(valid), count(valid & self.geometry.lit));
-        Counts {
-            sampled,
-            empty: valid_count - sampled,
-            invalid: self.range.len() - valid_count,
-            bisected: count(bisected & valid & self.geometry.lit),
-        }
+/// What became of the lanes: `valid` with what was given, `lit` for the density, and `bisected`.
+#[inline(always)]
+fn count<I: Isa>(valid: I::Mask, lit: I::Mask, bisected: I::Mask) -> Counts {
+    let lanes_of = |mask: I::Mask| I::V::bits(mask).count_ones() as usize;
+    let (valid_count, sampled) = (lanes_of(valid), lanes_of(valid & lit));
+    Counts {
+        sampled,
+        empty: valid_count - sampled,
+        invalid: I::V::N - valid_count,
+        bisected: lanes_of(bisected & valid & lit),
     }
 }
 
@@ -125,14 +150,15 @@ impl<I: Isa> Group<I> {
 #[inline(always)]
 fn for_each_group<I: Isa>(isa: I, inputs: &Inputs<'_>, mut visit: impl FnMut(Group<I>) -> Counts) -> Counts {
     let mut counts = Counts::default();
-    let mut start = 0;
-    while start < inputs.len() {
-        let range = start..inputs.len().min(start + I::V::N);
-        let ray = inputs.ray_lanes(isa, range.clone());
-        let geometry = Geometry::new(isa, &ray, &inputs.emitters.lanes(isa, range.clone()));
-        let medium = inputs.media.lanes(isa, range.clone());
-        start = range.end;
-        counts = counts + visit(Group { geometry, medium, range });
+    let rays = inputs.ray_groups::<I>();
+    let (mut emitter, mut medium) = (inputs.emitters.lanes(isa, 0), inputs.media.lanes(isa, 0));
+    for index in 0..rays.count() {
+        if index > 0 {
+            inputs.emitters.renew(isa, index, &mut emitter);
+            inputs.media.renew(isa, index, &mut medium);
+        }
+        let geometry = Geometry::new(isa, &rays.lanes(isa, index), &emitter);
+        counts = counts + visit(Group { geometry, medium, index });
     }
     counts
 }
@@ -142,13 +168,13 @@ fn for_each_group<I: Isa>(isa: I, inputs: &Inputs<'_>, mut visit: impl FnMut(Gro
 fn for_each_turn<I: Isa>(
     isa: I,
     inputs: &Inputs<'_>,
-    range: &Range<usize>,
+    group: usize,
     mut visit: impl FnMut(Turn, I::V) -> Counts,
 ) -> Counts {
     let mut counts = Counts::default();
     for index in 0..inputs.per_ray {
-        let turn = Turn { index, per_ray: inputs.per_ray };
-        counts = counts + visit(turn, turn.load(isa, inputs.given, range));
+        let turn = Turn { group, index, per_ray: inputs.per_ray };
+        counts = counts + visit(turn, turn.load(isa, inputs.given));
     }
     counts
 }
@@ -157,7 +183,7 @@ fn for_each_turn<I: Isa>(
 pub(crate) struct Sample;
 
 impl Task for Sample {
-    type Out<'a> = Samples<'a>;
+    type Out = OfSamples;
 
     #[inline(always)]
     fn run<I: Isa>(isa: I, strategy: Strategy, inputs: &Inputs<'_>, out: Samples<'_>) -> Counts {
@@ -167,47 +193,57 @@ impl Task for Sample {
 
 impl OfDensity for Sample {
     #[inline(always)]
-    fn chunk<I: Isa, D: Density<I>>(isa: I, inputs: &Inputs<'_>, mut out: Samples<'_>) -> Counts {
-        let zero = isa.splat(0.0);
-        for_each_group(
-            isa,
-            inputs,
-            #[inline(always)]
-            |group| {
-                let Group { geometry, medium, range } = &group;
-                let density = D::new(isa, geometry, medium);
-                for_each_turn(
-                    isa,
-                    inputs,
-                    range,
-                    #[inline(always)]
-                    |turn, u| {
-                        let valid = group.valid() & zero.le(u) & u.le(isa.splat(1.0));
-                        let sampled = valid & geometry.lit;
-                        let drawn = density.invert(isa, geometry, u);
-                        turn.store(I::V::select(sampled, drawn.point.t, zero), out.t, range);
-                        turn.store(I::V::select(sampled, drawn.pdf.over_t, zero), out.pdf, range);
-                        if let Some(weight) = &mut out.weight {
-                            let value = integrand_r2(isa, geometry, medium, &drawn.point) / drawn.pdf.times_r2;
-                            let possible = sampled & zero.lt(drawn.pdf.times_r2);
-                            turn.store(I::V::select(possible, value.min(isa.splat(f32::MAX)), zero), weight, range);
-                        }
-                        if let Some(r) = &mut out.r {
-                            turn.store(I::V::select(sampled, drawn.point.r, zero), r, range);
-                        }
-                        group.count(valid, drawn.bisected)
-                    },
-                )
-            },
-        )
+    fn chunk<I: Isa, D: Density<I>>(isa: I, inputs: &Inputs<'_>, out: Samples<'_>) -> Counts {
+        // Apart, as what a weight is made of would be kept in memory where nobody asks for it.
+        match out.weight {
+            Some(_) => sample::<I, D, true>(isa, inputs, out),
+            None => sample::<I, D, false>(isa, inputs, out),
+        }
     }
+}
+
+#[inline(always)]
+fn sample<I: Isa, D: Density<I>, const WEIGHTED: bool>(isa: I, inputs: &Inputs<'_>, mut out: Samples<'_>) -> Counts {
+    let zero = isa.splat(0.0);
+    for_each_group(
+        isa,
+        inputs,
+        #[inline(always)]
+        |group| {
+            let Group { geometry, medium, index } = &group;
+            let density = D::new(isa, geometry, medium);
+            let lit = D::lit(isa, geometry);
+            for_each_turn(
+                isa,
+                inputs,
+                *index,
+                #[inline(always)]
+                |turn, u| {
+                    let valid = group.valid() & zero.le(u) & u.le(isa.splat(1.0));
+                    let sampled = valid & lit;
+                    let drawn = density.invert(isa, geometry, u);
+                    turn.store(isa, I::V::select(sampled, drawn.point.t, zero), out.t);
+                    turn.store(isa, I::V::select(sampled, drawn.pdf.over_t, zero), out.pdf);
+                    if WEIGHTED && let Some(weight) = &mut out.weight {
+                        let value = integrand_r2(isa, geometry, medium, &drawn.point) / drawn.pdf.times_r2;
+                        let possible = sampled & zero.lt(drawn.pdf.times_r2);
+                        turn.store(isa, I::V::select(possible, value.min(isa.splat(f32::MAX)), zero), weight);
+                    }
+                    if let Some(r) = &mut out.r {
+                        turn.store(isa, I::V::select(sampled, drawn.point.r, zero), r);
+                    }
+                    count::<I>(valid, lit, drawn.bisected)
+                },
+            )
+        },
+    )
 }
 
 /// The density at given distances.
 pub(crate) struct Pdf;
 
 impl Task for Pdf {
-    type Out<'a> = &'a mut [f32];
+    type Out = Column;
 
     #[inline(always)]
     fn run<I: Isa>(isa: I, strategy: Strategy, inputs: &Inputs<'_>, out: &mut [f32]) -> Counts {
@@ -224,20 +260,20 @@ impl OfDensity for Pdf {
             inputs,
             #[inline(always)]
             |group| {
-                let Group { geometry, medium, range } = &group;
+                let Group { geometry, medium, index } = &group;
                 let density = D::new(isa, geometry, medium);
-                let [low, high] = D::support(geometry);
+                let (lit, [low, high]) = (D::lit(isa, geometry), D::support(geometry));
                 for_each_turn(
                     isa,
                     inputs,
-                    range,
+                    *index,
                     #[inline(always)]
                     |turn, t| {
                         let valid = group.valid() & t.eq(t);
-                        let inside = valid & geometry.lit & low.le(t) & t.le(high);
+                        let inside = valid & lit & low.le(t) & t.le(high);
                         let pdf = density.pdf(isa, geometry, &geometry.point_at_distance(isa, t));
-                        turn.store(I::V::select(inside, pdf.over_t, zero), out, range);
-                        group.count(valid, none(isa))
+                        turn.store(isa, I::V::select(inside, pdf.over_t, zero), out);
+                        count::<I>(valid, lit, none(isa))
                     },
                 )
             },
@@ -249,7 +285,7 @@ impl OfDensity for Pdf {
 pub(crate) struct Evaluate;
 
 impl Task for Evaluate {
-    type Out<'a> = &'a mut [f32];
+    type Out = Column;
 
     #[inline(always)]
     fn run<I: Isa>(isa: I, _: Strategy, inputs: &Inputs<'_>, out: &mut [f32]) -> Counts {
@@ -259,19 +295,19 @@ impl Task for Evaluate {
             inputs,
             #[inline(always)]
             |group| {
-                let Group { geometry, medium, range } = &group;
+                let Group { geometry, medium, index } = &group;
                 for_each_turn(
                     isa,
                     inputs,
-                    range,
+                    *index,
                     #[inline(always)]
                     |turn, t| {
                         let valid = group.valid() & t.eq(t);
                         let inside = valid & geometry.lit & geometry.t_min.le(t) & t.le(geometry.t_max);
                         let point = geometry.point_at_distance(isa, t);
                         let f = integrand_r2(isa, geometry, medium, &point) / (point.r * point.r);
-                        turn.store(I::V::select(inside, f.min(isa.splat(f32::MAX)), zero), out, range);
-                        group.count(valid, none(isa))
+                        turn.store(isa, I::V::select(inside, f.min(isa.splat(f32::MAX)), zero), out);
+                        count::<I>(valid, geometry.lit, none(isa))
                     },
                 )
             },
@@ -283,7 +319,7 @@ impl Task for Evaluate {
 pub(crate) struct Radiance;
 
 impl Task for Radiance {
-    type Out<'a> = &'a mut [f32];
+    type Out = Column;
 
     fn values_per_ray(_: &Inputs<'_>) -> usize {
         1
@@ -309,12 +345,13 @@ fn radiance<I: Isa, const K: usize>(isa: I, inputs: &Inputs<'_>, out: &mut [f32]
         inputs,
         #[inline(always)]
         |group| {
-            let Group { geometry, medium, range } = &group;
-            let sampled = group.valid() & geometry.lit;
+            let Group { geometry, medium, index } = &group;
+            let lit = Product::<I, K>::lit(isa, geometry);
+            let sampled = group.valid() & lit;
             let radiance = Product::<I, K>::new(isa, geometry, medium).radiance(isa, geometry, medium);
             let value = I::V::select(sampled, radiance.min(isa.splat(f32::MAX)), zero);
-            Turn { index: 0, per_ray: 1 }.store(value, out, range);
-            group.count(group.valid(), none(isa))
+            Turn { group: *index, index: 0, per_ray: 1 }.store(isa, value, out);
+            count::<I>(group.valid(), lit, none(isa))
         },
     )
 }

@@ -195,21 +195,16 @@ fn one<T: road::Task>(
     emitter: &Emitter,
     medium: &Medium,
     given: f32,
-    out: T::Out<'_>,
+    out: road::Out<'_, T>,
 ) -> Counts {
     let (origin, direction) = (ray.origin().to_array(), ray.direction().to_array());
     let (t_min, t_max) = (ray.t_min(), ray.t_max());
-    let inputs = Inputs {
-        rays: Rays {
-            origin: [0, 1, 2].map(|k| from_ref(&origin[k])),
-            direction: [0, 1, 2].map(|k| from_ref(&direction[k])),
-            t_min: from_ref(&t_min),
-            t_max: from_ref(&t_max),
-        },
-        emitters: Emitters::One(*emitter),
-        media: Media::One(*medium),
-        given: from_ref(&given),
-        per_ray: 1,
+    let rays = Rays {
+        origin: [0, 1, 2].map(|k| from_ref(&origin[k])),
+        direction: [0, 1, 2].map(|k| from_ref(&direction[k])),
+        t_min: from_ref(&t_min),
+        t_max: from_ref(&t_max),
     };
+    let inputs = Inputs::one(rays, *emitter, *medium, from_ref(&given));
     road::travel::<T>(backend, strategy, &inputs, out)
 }

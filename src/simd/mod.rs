@@ -59,8 +59,6 @@ pub(crate) trait Lanes: Number + Div<Output = Self> {
     fn widen(self) -> Self::Double;
     /// Rounded to nearest.
     fn narrow(d: Self::Double) -> Self;
-    /// Writes the first `out.len()` lanes, at most all.
-    fn store_prefix(self, out: &mut [f32]);
 }
 
 /// The double-precision companion of a lane group: geometry is computed in it and rounded once.
@@ -73,11 +71,16 @@ pub(crate) trait Isa: Copy {
     type V: Lanes<Mask = Self::Mask, Double = Self::Double>;
     type Mask: Copy + BitAnd<Output = Self::Mask> + BitOr<Output = Self::Mask> + Not<Output = Self::Mask>;
     type Double: Double;
+    /// An array of as many values as there are lanes.
+    type Group: Copy;
 
     fn splat(self, x: f32) -> Self::V;
     fn splat_double(self, x: f64) -> Self::Double;
-    /// The first lanes from `s`, which is not empty; where it is too short, its first value fills up.
-    fn load_padded(self, s: &[f32]) -> Self::V;
+    /// A column cut into groups; what does not fill one is left out.
+    fn groups(column: &[f32]) -> &[Self::Group];
+    fn groups_mut(column: &mut [f32]) -> &mut [Self::Group];
+    fn load(self, group: &Self::Group) -> Self::V;
+    fn store(self, lanes: Self::V, group: &mut Self::Group);
 }
 
 /// No lane.

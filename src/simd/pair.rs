@@ -108,10 +108,4 @@ impl<V: Lanes> Lanes for Pair<V> {
     fn narrow(d: Self::Double) -> Self {
         Self(V::narrow(d.0), V::narrow(d.1))
     }
-    #[inline(always)]
-    fn store_prefix(self, out: &mut [f32]) {
-        let (low, high) = out.split_at_mut(out.len().min(V::N));
-        self.0.store_prefix(low);
-        self.1.store_prefix(high);
-    }
 }

@@ -13,6 +13,7 @@ impl Isa for Portable {
     type V = f32x8;
     type Mask = f32x8;
     type Double = Pair<f64x4>;
+    type Group = [f32; 8];
 
     #[inline(always)]
     fn splat(self, x: f32) -> f32x8 {
@@ -23,13 +24,20 @@ impl Isa for Portable {
         Pair(f64x4::splat(x), f64x4::splat(x))
     }
     #[inline(always)]
-    fn load_padded(self, s: &[f32]) -> f32x8 {
-        if let Some(head) = s.first_chunk() {
-            return f32x8::new(*head);
-        }
-        let mut pad = [s[0]; 8];
-        pad[..s.len()].copy_from_slice(s);
-        f32x8::new(pad)
+    fn groups(column: &[f32]) -> &[[f32; 8]] {
+        column.as_chunks().0
+    }
+    #[inline(always)]
+    fn groups_mut(column: &mut [f32]) -> &mut [[f32; 8]] {
+        column.as_chunks_mut().0
+    }
+    #[inline(always)]
+    fn load(self, group: &[f32; 8]) -> f32x8 {
+        f32x8::new(*group)
+    }
+    #[inline(always)]
+    fn store(self, lanes: f32x8, group: &mut [f32; 8]) {
+        *group = lanes.to_array();
     }
 }
 
@@ -106,11 +114,6 @@ impl Lanes for f32x8 {
         let [a, b, c, d] = x.0.to_array();
         let [e, f, g, h] = x.1.to_array();
         f32x8::new([a as f32, b as f32, c as f32, d as f32, e as f32, f as f32, g as f32, h as f32])
-    }
-    #[inline(always)]
-    fn store_prefix(self, out: &mut [f32]) {
-        let n = out.len().min(8);
-        out[..n].copy_from_slice(&self.to_array()[..n]);
     }
 }
 

@@ -10,6 +10,7 @@ impl Isa for Scalar {
     type V = f32;
     type Mask = bool;
     type Double = f64;
+    type Group = f32;
 
     #[inline(always)]
     fn splat(self, x: f32) -> f32 {
@@ -20,8 +21,20 @@ impl Isa for Scalar {
         x
     }
     #[inline(always)]
-    fn load_padded(self, s: &[f32]) -> f32 {
-        s[0]
+    fn groups(column: &[f32]) -> &[f32] {
+        column
+    }
+    #[inline(always)]
+    fn groups_mut(column: &mut [f32]) -> &mut [f32] {
+        column
+    }
+    #[inline(always)]
+    fn load(self, group: &f32) -> f32 {
+        *group
+    }
+    #[inline(always)]
+    fn store(self, lanes: f32, group: &mut f32) {
+        *group = lanes;
     }
 }
 
@@ -90,12 +103,6 @@ impl Lanes for f32 {
     #[inline(always)]
     fn narrow(d: f64) -> Self {
         d as f32
-    }
-    #[inline(always)]
-    fn store_prefix(self, out: &mut [f32]) {
-        if let Some(first) = out.first_mut() {
-            *first = self;
-        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! Two lane groups in flight.
 
+use super::Isa;
 use super::pair::Pair;
-use super::{Isa, Lanes};
 
 /// An instruction set whose lane groups come in pairs: twice the independent work, to hide latency.
 #[derive(Clone, Copy, Debug)]
@@ -11,6 +11,7 @@ impl<I: Isa> Isa for Two<I> {
     type V = Pair<I::V>;
     type Mask = Pair<I::Mask>;
     type Double = Pair<I::Double>;
+    type Group = [I::Group; 2];
 
     #[inline(always)]
     fn splat(self, x: f32) -> Self::V {
@@ -21,8 +22,20 @@ impl<I: Isa> Isa for Two<I> {
         Pair(self.0.splat_double(x), self.0.splat_double(x))
     }
     #[inline(always)]
-    fn load_padded(self, s: &[f32]) -> Self::V {
-        let (low, high) = s.split_at(s.len().min(I::V::N));
-        Pair(self.0.load_padded(low), self.0.load_padded(if high.is_empty() { &s[..1] } else { high }))
+    fn groups(column: &[f32]) -> &[[I::Group; 2]] {
+        I::groups(column).as_chunks().0
+    }
+    #[inline(always)]
+    fn groups_mut(column: &mut [f32]) -> &mut [[I::Group; 2]] {
+        I::groups_mut(column).as_chunks_mut().0
+    }
+    #[inline(always)]
+    fn load(self, [low, high]: &[I::Group; 2]) -> Self::V {
+        Pair(self.0.load(low), self.0.load(high))
+    }
+    #[inline(always)]
+    fn store(self, lanes: Self::V, [low, high]: &mut [I::Group; 2]) {
+        self.0.store(lanes.0, low);
+        self.0.store(lanes.1, high);
     }
 }

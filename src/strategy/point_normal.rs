@@ -69,6 +69,11 @@ impl<I: Isa> Density<I> for PointNormal<I> {
     }
 
     #[inline(always)]
+    fn lit(isa: I, geometry: &Geometry<I>) -> I::Mask {
+        geometry.lit & geometry.bright(isa)
+    }
+
+    #[inline(always)]
     fn pdf(&self, isa: I, geometry: &Geometry<I>, point: &Point<I>) -> Pdf<I> {
         Pdf::over_angle(geometry.cosine(isa, point) / self.mass, geometry.h, point.r)
     }

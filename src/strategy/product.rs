@@ -226,6 +226,11 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
     }
 
     #[inline(always)]
+    fn lit(isa: I, geometry: &Geometry<I>) -> I::Mask {
+        geometry.lit & geometry.bright(isa)
+    }
+
+    #[inline(always)]
     fn pdf(&self, isa: I, geometry: &Geometry<I>, point: &Point<I>) -> Pdf<I> {
         let c = |x| isa.splat(x);
         let (g, one) = (geometry, c(1.0));

@@ -196,6 +196,11 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
     }
 
     #[inline(always)]
+    fn lit(isa: I, geometry: &Geometry<I>) -> I::Mask {
+        geometry.lit & geometry.bright(isa)
+    }
+
+    #[inline(always)]
     fn pdf(&self, isa: I, geometry: &Geometry<I>, point: &Point<I>) -> Pdf<I> {
         let angle = angle_of(isa, point.t_prime.abs(), geometry.h);
         let negative = point.t_prime.lt(isa.splat(0.0));

@@ -9,7 +9,7 @@ use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 /// Proof of AVX2 and FMA.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::simd) struct Avx2(());
-token!(Avx2: "avx2,fma", detected "avx2" "fma");
+token!(Avx2: "avx2,fma,popcnt", detected "avx2" "fma" "popcnt");
 
 #[derive(Clone, Copy)]
 pub(crate) struct F32x8(__m256);
@@ -36,6 +36,7 @@ impl Isa for Avx2 {
     type V = F32x8;
     type Mask = Mask8;
     type Double = Pair<F64x4>;
+    type Group = [f32; 8];
 
     #[inline(always)]
     fn splat(self, x: f32) -> F32x8 {
@@ -47,13 +48,20 @@ impl Isa for Avx2 {
         Pair(x, x)
     }
     #[inline(always)]
-    fn load_padded(self, s: &[f32]) -> F32x8 {
-        if let Some(head) = s.first_chunk::<8>() {
-            return F32x8(proven!(_mm256_loadu_ps(head.as_ptr())));
-        }
-        let mut pad = [s[0]; 8];
-        pad[..s.len()].copy_from_slice(s);
-        F32x8(proven!(_mm256_loadu_ps(pad.as_ptr())))
+    fn groups(column: &[f32]) -> &[[f32; 8]] {
+        column.as_chunks().0
+    }
+    #[inline(always)]
+    fn groups_mut(column: &mut [f32]) -> &mut [[f32; 8]] {
+        column.as_chunks_mut().0
+    }
+    #[inline(always)]
+    fn load(self, group: &[f32; 8]) -> F32x8 {
+        F32x8(proven!(_mm256_loadu_ps(group.as_ptr())))
+    }
+    #[inline(always)]
+    fn store(self, lanes: F32x8, group: &mut [f32; 8]) {
+        proven!(_mm256_storeu_ps(group.as_mut_ptr(), lanes.0));
     }
 }
 
@@ -138,16 +146,6 @@ impl Lanes for F32x8 {
     #[inline(always)]
     fn narrow(d: Pair<F64x4>) -> Self {
         Self(proven!(_mm256_set_m128(_mm256_cvtpd_ps(d.1.0), _mm256_cvtpd_ps(d.0.0))))
-    }
-    #[inline(always)]
-    fn store_prefix(self, out: &mut [f32]) {
-        if let Some(head) = out.first_chunk_mut::<8>() {
-            proven!(_mm256_storeu_ps(head.as_mut_ptr(), self.0));
-        } else {
-            let mut all = [0.0; 8];
-            proven!(_mm256_storeu_ps(all.as_mut_ptr(), self.0));
-            out.copy_from_slice(&all[..out.len()]);
-        }
     }
 }
 

@@ -9,7 +9,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 /// Proof of AVX-512 with its extensions DQ and VL, and of AVX2 and FMA.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::simd) struct Avx512(());
-token!(Avx512: "avx512f,avx512dq,avx512vl,avx2,fma", detected "avx512f" "avx512dq" "avx512vl" "avx2" "fma");
+token!(Avx512: "avx512f,avx512dq,avx512vl,avx2,fma,popcnt", detected "avx512f" "avx512dq" "avx512vl" "avx2" "fma" "popcnt");
 
 #[derive(Clone, Copy)]
 pub(crate) struct F32x16(__m512);
@@ -23,6 +23,7 @@ impl Isa for Avx512 {
     type V = F32x16;
     type Mask = __mmask16;
     type Double = Pair<F64x8>;
+    type Group = [f32; 16];
 
     #[inline(always)]
     fn splat(self, x: f32) -> F32x16 {
@@ -34,13 +35,20 @@ impl Isa for Avx512 {
         Pair(x, x)
     }
     #[inline(always)]
-    fn load_padded(self, s: &[f32]) -> F32x16 {
-        if let Some(head) = s.first_chunk::<16>() {
-            return F32x16(proven!(_mm512_loadu_ps(head.as_ptr())));
-        }
-        let mut pad = [s[0]; 16];
-        pad[..s.len()].copy_from_slice(s);
-        F32x16(proven!(_mm512_loadu_ps(pad.as_ptr())))
+    fn groups(column: &[f32]) -> &[[f32; 16]] {
+        column.as_chunks().0
+    }
+    #[inline(always)]
+    fn groups_mut(column: &mut [f32]) -> &mut [[f32; 16]] {
+        column.as_chunks_mut().0
+    }
+    #[inline(always)]
+    fn load(self, group: &[f32; 16]) -> F32x16 {
+        F32x16(proven!(_mm512_loadu_ps(group.as_ptr())))
+    }
+    #[inline(always)]
+    fn store(self, lanes: F32x16, group: &mut [f32; 16]) {
+        proven!(_mm512_storeu_ps(group.as_mut_ptr(), lanes.0));
     }
 }
 
@@ -126,16 +134,6 @@ impl Lanes for F32x16 {
     fn narrow(d: Pair<F64x8>) -> Self {
         let low = proven!(_mm512_castps256_ps512(_mm512_cvtpd_ps(d.0.0)));
         Self(proven!(_mm512_insertf32x8::<1>(low, _mm512_cvtpd_ps(d.1.0))))
-    }
-    #[inline(always)]
-    fn store_prefix(self, out: &mut [f32]) {
-        if let Some(head) = out.first_chunk_mut::<16>() {
-            proven!(_mm512_storeu_ps(head.as_mut_ptr(), self.0));
-        } else {
-            let mut all = [0.0; 16];
-            proven!(_mm512_storeu_ps(all.as_mut_ptr(), self.0));
-            out.copy_from_slice(&all[..out.len()]);
-        }
     }
 }
 
