@@ -10,10 +10,10 @@ const RAYS: usize = 1 << 13;
 fn the_estimate_is_near_the_radiance() {
     // Relative errors that half, and 99 % of the rays of the generic family stay below.
     for (strategy, median, p99) in [
-        (Strategy::Product3, 0.05, 0.25),
-        (Strategy::Product5, 0.012, 0.08),
-        (Strategy::Product9, 0.003, 0.02),
-        (Strategy::Product17, 0.0008, 0.005),
+        (Strategy::Product3, 0.05, 0.22),
+        (Strategy::Product5, 0.002, 0.012),
+        (Strategy::Product9, 0.0002, 0.002),
+        (Strategy::Product17, 0.00002, 0.00013),
     ] {
         let cases: Vec<Case> = (0..RAYS).map(|i| Family::Generic.case(8, i as u64)).collect();
         let columns = Columns::new(&cases);

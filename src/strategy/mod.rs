@@ -27,7 +27,7 @@ pub enum Strategy {
     TaylorTransmittance,
     /// Proportional to `N/r^2` times the Taylor polynomial of the phase function.
     TaylorPhase,
-    /// Nearly proportional to the whole integrand, known at 3 points and linear between them in a warped variable.
+    /// Nearly proportional to the whole integrand, known at 3 points and followed by lines in a warped variable.
     Product3,
     /// The same with 5 points.
     Product5,

@@ -1,11 +1,13 @@
 //! `p` nearly proportional to the whole integrand `T rho N / r^2`, without trigonometry and without iteration.
 //!
-//! The integrand is evaluated at K knots of a variable `v` in `[0, 1]`, taken as linear between them, and inverted in
+//! The integrand is evaluated at K places of a variable `v` in `[0, 1]`, followed by a line with K knots, and inverted in
 //! closed form. `v` is a Moebius map of `X = t' + r`, in which everything is algebraic (our derivation):
 //!
 //! - `T` is proportional to `exp(-mu_t X)`; `r = (X + h^2/X)/2`, `t' = (X - h^2/X)/2`, `dX/dt = X/r`.
 //! - `1 + g^2 + 2 g sin theta = (A^2 X^2 + B^2 h^2)/(X^2 + h^2)` with `A = 1 + g`, `B = 1 - g`.
 //! - `Y = X - X_a = Y_c v/(e + 1 - v)`, where `Y_c` is the length over which the integrand changes and `e = Y_c/Y_b`.
+//! - A line's values at its inner knots are those of the integrand less a twelfth of `width^2 f''`, as least squares would
+//!   have them. At an end, where the integrand may vanish over no length at all, it is drawn through a place inside.
 
 use crate::density::{Density, Drawn, Pdf};
 use crate::geometry::{Geometry, Point};
@@ -13,26 +15,34 @@ use crate::integrand::{MediumLanes, transmittance};
 use crate::simd::math::one_minus_exp;
 use crate::simd::{Isa, Lanes, Number, none};
 
-/// `0.7 x + 0.15 (1 - cos(pi x))` at `x = k/16`; with fewer knots every second, fourth or eighth.
+/// `0.65 x + 0.175 (1 - cos(pi x))` at `x = k/16`; with fewer knots every second, fourth or eighth.
 const KNOTS: [f32; 17] = [
     0.0,
-    0.046_632_207,
-    0.098_918_07,
-    0.156_529_56,
-    0.218_933_98,
-    0.285_414_46,
-    0.355_097_48,
-    0.426_986_45,
+    0.043_987_576,
+    0.094_571_084,
+    0.151_367_81,
+    0.213_756_31,
+    0.280_900_2,
+    0.351_780_38,
+    0.425_234_2,
     0.5,
-    0.573_013_54,
-    0.644_902_5,
-    0.714_585_54,
-    0.781_066,
-    0.843_470_46,
-    0.901_081_9,
-    0.953_367_8,
+    0.574_765_8,
+    0.648_219_6,
+    0.719_099_8,
+    0.786_243_7,
+    0.848_632_16,
+    0.905_428_95,
+    0.956_012_4,
     1.0,
 ];
+
+/// How far from an end the integrand is looked at in its stead, in widths of the segment.
+const INSIDE: f32 = 0.125;
+/// The least share of what is seen there that the line keeps at an end.
+const LEAST_AT_END: f32 = 0.0625;
+
+/// The same between the ends.
+const LEAST: f32 = 0.5;
 
 /// Of this `|g|` is the density for all that is larger: at 1 the phase function is none.
 const MOST_FORWARD: f32 = 1.0 - 1.0 / 4096.0;
@@ -72,6 +82,67 @@ impl<I: Isa, const K: usize> Product<I, K> {
         }
         v
     };
+
+    /// Where the integrand is looked at: at the knots, but inside the ends.
+    const SEEN: [f32; K] = {
+        let mut seen = Self::V;
+        seen[0] = INSIDE * Self::V[1];
+        seen[K - 1] = 1.0 - INSIDE * (1.0 - Self::V[K - 2]);
+        seen
+    };
+
+    /// How far that is from 1.
+    const TO_1: [f32; K] = {
+        let mut to_1 = [0.0; K];
+        let mut k = 0;
+        while k < K {
+            to_1[k] = 1.0 - Self::SEEN[k];
+            k += 1;
+        }
+        to_1[K - 1] = INSIDE * (1.0 - Self::V[K - 2]);
+        to_1
+    };
+
+    /// How much of `f_{i-1} - f_i` and of `f_{i+1} - f_i` the line is below `f_i` at an inner knot: together a
+    /// twenty-fourth of the second derivative times the sum of the squares of both widths.
+    const BEND: [[f32; 2]; K] = {
+        let mut bend = [[0.0; 2]; K];
+        let mut i = 1;
+        while i + 1 < K {
+            let [below, above] = [Self::V[i] - Self::V[i - 1], Self::V[i + 1] - Self::V[i]];
+            let [seen_below, seen_above] = [Self::SEEN[i] - Self::SEEN[i - 1], Self::SEEN[i + 1] - Self::SEEN[i]];
+            let share = (below * below + above * above) / (12.0 * (seen_below + seen_above));
+            bend[i] = [share / seen_below, share / seen_above];
+            i += 1;
+        }
+        bend
+    };
+
+    /// The line's values at the knots, of the integrand's where it is looked at.
+    #[inline(always)]
+    fn line(isa: I, seen: &[I::V; K]) -> [I::V; K] {
+        let c = |x| isa.splat(x);
+        let mut f = *seen;
+        f[0] = Self::extended(isa, seen[0], seen[1]);
+        f[K - 1] = Self::extended(isa, seen[K - 1], seen[K - 2]);
+        let mut i = 1;
+        while i + 1 < K {
+            let [below, above] = Self::BEND[i];
+            let own = seen[i] * c(1.0 + below + above);
+            let line = seen[i - 1].mul_add(c(-below), seen[i + 1].mul_add(c(-above), own));
+            f[i] = line.max(c(LEAST) * seen[i]);
+            i += 1;
+        }
+        f
+    }
+
+    /// The line's value at an end, straight on from the next knot through what is seen inside.
+    #[inline(always)]
+    fn extended(isa: I, seen: I::V, next: I::V) -> I::V {
+        let beyond = INSIDE / (1.0 - INSIDE);
+        let end = next.mul_add(isa.splat(-beyond), seen * isa.splat(1.0 + beyond));
+        end.max(isa.splat(LEAST_AT_END) * seen)
+    }
 
     /// The segment for which `beyond(i, C_i)` holds for all `i` up to its start, where `C_i` is the CDF at knot `i`.
     #[inline(always)]
@@ -140,35 +211,28 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
         let h_x = g.h / I::V::select(rising, x_a, x_b);
         let inv_e = one / e;
 
-        let mut f = [one; K];
-        let mut before = one;
-        let mut slope = c(0.0);
+        let mut seen = [one; K];
         let mut k = 0;
         while k < K {
-            let v = c(Self::V[k]);
-            let rest = e + c(1.0 - Self::V[k]);
+            let v = c(Self::SEEN[k]);
+            let to_1 = c(Self::TO_1[k]);
+            let rest = e + to_1;
             let (w, s) = (w_0 * v, w_0 * rest);
             let depth = medium.mu_t * y_c * (v / rest);
-            let (_, mut transmittance) = one_minus_exp(isa, depth);
-            if k + 1 == K {
-                // Where T has vanished at the end it still counts: what it falls to is beyond what a line can follow.
-                let floor = before * ((one - slope) / (one + slope)).max(c(0.0));
-                transmittance = transmittance.max(floor);
-            }
-            before = transmittance;
-            slope = c(1.5) * medium.mu_t * y_c * (w / s + one);
+            let (_, transmittance) = one_minus_exp(isa, depth);
 
             let p = h_c * s;
             let q = x_c.mul_add(s, scale * w);
-            let way = I::V::select(rising, w, c(1.0 - Self::V[k]) * inv_e);
+            let way = I::V::select(rising, w, to_1 * inv_e);
             let m = m_end.mul_add(s * q, half_beta * way * p.mul_add(h_x, q));
             let p2 = p * p;
             let s_1 = q.mul_add(q, p2).max(c(1e-18));
             let s_2 = (a2 * q).mul_add(q, b2 * p2).max(c(1e-18));
             let numerator = I::V::select(g.has_normal, m.max(c(0.0)), s_1);
-            f[k] = transmittance * numerator / (s_2 * (s_1 * s_2).sqrt());
+            seen[k] = transmittance * numerator / (s_2 * (s_1 * s_2).sqrt());
             k += 1;
         }
+        let mut f = Self::line(isa, &seen);
 
         let mut mass = c(0.0);
         let mut k = 1;

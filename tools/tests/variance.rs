@@ -1,6 +1,7 @@
 //! `airlight variance` as it is met from outside, and what its figures must be.
 
 use airlight::Strategy;
+use airlight_tools::adversary::Place;
 use airlight_tools::contender::Contender;
 use airlight_tools::scenes::Set;
 use serde_json::Value;
@@ -120,7 +121,7 @@ fn figures(set: Set, strategy: Strategy, scenes: usize) -> [f64; 3] {
 
 #[test]
 fn product_densities_stray_little_on_any_scene() {
-    for (strategy, limits) in [(Strategy::Product5, [7.5e-3, 0.03, 0.2]), (Strategy::Product9, [1.8e-3, 7e-3, 0.03])] {
+    for (strategy, limits) in [(Strategy::Product5, [6e-3, 0.03, 0.2]), (Strategy::Product9, [1.4e-3, 7e-3, 0.03])] {
         let figures = figures(Set::Broad, strategy, 500);
         assert!(figures.iter().zip(limits).all(|(figure, limit)| *figure <= limit), "{strategy}: {figures:?}");
     }
@@ -129,9 +130,29 @@ fn product_densities_stray_little_on_any_scene() {
 #[test]
 fn product_densities_stray_least_in_the_canonical_scene() {
     let set = Set::Canonical { forward: true, normal: true };
-    for (strategy, limit) in [(Strategy::Product5, 1.3e-3), (Strategy::Product9, 1.5e-4)] {
+    for (strategy, limit) in [(Strategy::Product5, 7e-4), (Strategy::Product9, 6e-5)] {
         let [mean, ..] = figures(set, strategy, 500);
         assert!(mean <= limit, "{strategy}: {mean}");
+    }
+}
+
+/// Where the search found the worst for these densities, and for the chords of the integrand, which reach 0.17 there.
+#[test]
+fn product_densities_stray_little_where_they_do_worst() {
+    let place = |mu_t, g, foot, length, normal| Place { mu_t, g, foot, length, normal };
+    let turned_away = Some([0.000_247, 1.0]);
+    for (place, of_five, of_nine) in [
+        (place(0.204, -0.9, 77.66, Some(113.65), None), 0.08, 0.008),
+        (place(1.38e-4, 0.9, 2797.4, None, Some([0.024_74, -0.999_694])), 0.08, 0.008),
+        (place(6.66e-3, -0.9, 4051.54, None, turned_away), 0.08, 0.008),
+        (place(1.98e-3, -0.99, 4051.54, None, turned_away), 0.08, 0.02),
+        (place(0.0491, -0.99, 4051.54, None, turned_away), 0.08, 0.02),
+    ] {
+        let scene = place.scene().unwrap();
+        for (strategy, limit) in [(Strategy::Product5, of_five), (Strategy::Product9, of_nine)] {
+            let variance = scene.relative_variance(strategy).unwrap();
+            assert!(variance <= limit, "{strategy}: {variance} at {place}");
+        }
     }
 }
 
