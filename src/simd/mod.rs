@@ -7,7 +7,7 @@ mod pair;
 mod portable;
 #[cfg(feature = "measure")]
 mod scalar;
-#[cfg(all(target_arch = "x86_64", feature = "measure"))]
+#[cfg(target_arch = "x86_64")]
 mod two;
 #[cfg(target_arch = "x86_64")]
 mod x86;
@@ -111,7 +111,7 @@ enum Kind {
     Avx2(x86::Avx2),
     Portable,
     #[cfg(all(target_arch = "x86_64", feature = "measure"))]
-    TwoAvx2(x86::Avx2),
+    Avx2Single(x86::Avx2),
     #[cfg(feature = "measure")]
     Scalar,
 }
@@ -119,7 +119,7 @@ enum Kind {
 impl Backend {
     /// Every backend that this CPU can run, the fastest first.
     ///
-    /// With the feature `measure` also `avx2x2`, where lane groups come in pairs, and `scalar`, one lane.
+    /// With the feature `measure` also `avx2-single`, where lane groups do not come in pairs, and `scalar`, one lane.
     pub fn available() -> impl Iterator<Item = Self> {
         [
             #[cfg(target_arch = "x86_64")]
@@ -128,7 +128,7 @@ impl Backend {
             x86::Avx2::detect().map(Kind::Avx2),
             Some(Kind::Portable),
             #[cfg(all(target_arch = "x86_64", feature = "measure"))]
-            x86::Avx2::detect().map(Kind::TwoAvx2),
+            x86::Avx2::detect().map(Kind::Avx2Single),
             #[cfg(feature = "measure")]
             Some(Kind::Scalar),
         ]
@@ -153,7 +153,7 @@ impl Backend {
             Kind::Avx2(_) => "avx2",
             Kind::Portable => "portable",
             #[cfg(all(target_arch = "x86_64", feature = "measure"))]
-            Kind::TwoAvx2(_) => "avx2x2",
+            Kind::Avx2Single(_) => "avx2-single",
             #[cfg(feature = "measure")]
             Kind::Scalar => "scalar",
         }
@@ -173,12 +173,12 @@ impl Backend {
     pub(crate) fn run<K: Kernel>(self, kernel: K) -> K::Output {
         match self.0 {
             #[cfg(target_arch = "x86_64")]
-            Kind::Avx512(proof) => proof.vectorize(kernel, proof),
+            Kind::Avx512(proof) => proof.vectorize(kernel, two::Two(proof)),
             #[cfg(target_arch = "x86_64")]
-            Kind::Avx2(proof) => proof.vectorize(kernel, proof),
+            Kind::Avx2(proof) => proof.vectorize(kernel, two::Two(proof)),
             Kind::Portable => kernel.run(Portable),
             #[cfg(all(target_arch = "x86_64", feature = "measure"))]
-            Kind::TwoAvx2(proof) => proof.vectorize(kernel, two::Two(proof)),
+            Kind::Avx2Single(proof) => proof.vectorize(kernel, proof),
             // With FMA in the CPU its `mul_add` is an instruction instead of a call.
             #[cfg(all(target_arch = "x86_64", feature = "measure"))]
             Kind::Scalar => match x86::Avx2::detect() {

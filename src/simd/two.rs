@@ -3,7 +3,8 @@
 use super::Isa;
 use super::pair::Pair;
 
-/// An instruction set whose lane groups come in pairs: twice the independent work, to hide latency.
+/// An instruction set whose lane groups come in pairs: twice the independent work, to hide latency. (Four at
+/// a time are no faster: they do not fit the registers.)
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Two<I>(pub(super) I);
 

@@ -10,7 +10,7 @@
 //!   have them. At an end, where the integrand may vanish over no length at all, it is drawn through a place inside.
 
 use crate::density::{Density, Drawn, Pdf};
-use crate::geometry::{Geometry, Point};
+use crate::geometry::{End, Geometry, Point};
 use crate::integrand::{MediumLanes, transmittance};
 use crate::simd::math::one_minus_exp;
 use crate::simd::{Isa, Lanes, Number, none};
@@ -54,10 +54,17 @@ pub(crate) struct Product<I: Isa, const K: usize> {
     /// `X` at the ends.
     x_a: I::V,
     x_b: I::V,
-    /// The scale of the warp, `Y` at the end, and `e`.
+    /// `h/X` there.
+    h_x_a: I::V,
+    h_x_b: I::V,
+    /// The scale of the warp, `Y` at the end, and `e`; what is divided by.
     y_c: I::V,
+    inv_y_c: I::V,
     y_b: I::V,
     e: I::V,
+    inv_e: I::V,
+    /// `1/(1 + e)`.
+    w_0: I::V,
     /// The density over `v` at the knots; its integral is 1.
     f: [I::V; K],
     /// The integral of the integrand over `mu_s (1 - g^2)/(4 pi)` and the transmittance at the start.
@@ -178,9 +185,18 @@ impl<I: Isa, const K: usize> Product<I, K> {
     /// From a density over `v` where `Y + Y_c = Y_c/s`: `dv/dt = (dv/dY) X/r`.
     #[inline(always)]
     fn pdf_over_v(&self, isa: I, p_v: I::V, s: I::V, x: I::V, r: I::V) -> Pdf<I> {
-        let over_y = p_v * (s * s) * ((isa.splat(1.0) + self.e) / self.y_c);
+        let over_y = p_v * (s * s) * ((isa.splat(1.0) + self.e) * self.inv_y_c);
         Pdf { over_t: over_y * (x / r), times_r2: over_y * (x * r) }
     }
+}
+
+/// `X` at an end without cancellation, and `h/X`, of one division.
+#[inline(always)]
+fn x_and_h_over_it<I: Isa>(isa: I, geometry: &Geometry<I>, inv_h: I::V, end: &End<I>) -> (I::V, I::V) {
+    let (h, forward) = (geometry.h, isa.splat(0.0).lt(end.t_prime));
+    let long = end.r + end.t_prime.abs();
+    let short = h / long;
+    (I::V::select(forward, long, h * short), I::V::select(forward, short, long * inv_h))
 }
 
 impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
@@ -192,24 +208,26 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
         let (forward, backward) = (one + phase_g, one - phase_g);
         let (a2, b2) = (forward * forward, backward * backward);
 
-        let x_a = g.x(isa, g.a.t_prime, g.a.r);
-        let x_b = g.x(isa, g.b.t_prime, g.b.r);
+        let inv_h = one / g.h;
+        let (x_a, h_x_a) = x_and_h_over_it(isa, g, inv_h, &g.a);
+        let (x_b, h_x_b) = x_and_h_over_it(isa, g, inv_h, &g.b);
         let y_b = g.length * ((x_a + x_b) / (g.a.r + g.b.r));
         let reach = x_a.mul_add(c(1.5), c(1.25) * g.h * (backward / forward));
-        let y_c = (one / medium.mu_t.mul_add(c(0.45), one / reach)).max(c(SHORTEST));
+        let inv_y_c = medium.mu_t.mul_add(c(0.45), one / reach).min(c(1.0 / SHORTEST));
+        let y_c = one / inv_y_c;
         let e = y_c / y_b;
+        let inv_e = y_b * inv_y_c;
         let w_0 = one / (one + e);
 
         // At a knot P, Q stand for h, X, in a scale of their own that keeps their powers within f32.
-        let (h_c, x_c) = (g.h / y_c, x_a / y_c);
+        let (h_c, x_c) = (g.h * inv_y_c, x_a * inv_y_c);
         let scale = one / h_c.max(x_c).max(one);
         let (h_c, x_c) = (h_c * scale, x_c * scale);
         // m = n.(x - y) in units of the end where N is smaller.
         let rising = c(0.0).le(g.beta);
-        let m_end = I::V::select(rising, g.a.n * g.a.r, g.b.n * g.b.r) / y_c;
+        let m_end = I::V::select(rising, g.a.n * g.a.r, g.b.n * g.b.r) * inv_y_c;
         let half_beta = c(0.5) * g.beta.abs();
-        let h_x = g.h / I::V::select(rising, x_a, x_b);
-        let inv_e = one / e;
+        let h_x = I::V::select(rising, h_x_a, h_x_b);
 
         let mut seen = [one; K];
         let mut k = 0;
@@ -249,8 +267,21 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
             k += 1;
         }
         // f stands for the integrand over v times this.
-        let unit = scale * scale * (w_0 / y_c) * I::V::select(g.has_normal, c(4.0) * scale, c(2.0));
-        Self { x_a, x_b, y_c, y_b, e, f, mass: I::V::select(usable, mass, c(0.0)) * unit }
+        let unit = scale * scale * (w_0 * inv_y_c) * I::V::select(g.has_normal, c(4.0) * scale, c(2.0));
+        Self {
+            x_a,
+            x_b,
+            h_x_a,
+            h_x_b,
+            y_c,
+            inv_y_c,
+            y_b,
+            e,
+            inv_e,
+            w_0,
+            f,
+            mass: I::V::select(usable, mass, c(0.0)) * unit,
+        }
     }
 
     #[inline(always)]
@@ -259,10 +290,10 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
         let (g, one) = (geometry, c(1.0));
         let (segment, below) = self.segment(isa, |_, cdf| cdf.le(u));
         let Segment { f_0, f_1, v_0, width } = segment;
-        let area = (u - below) / width;
-        let root = f_0.mul_add(f_0, (f_1 - f_0) * (area + area)).max(c(0.0)).sqrt();
+        let (g_0, g_1, area) = (width * f_0, width * f_1, u - below);
+        let root = g_0.mul_add(g_0, (g_1 - g_0) * (area + area)).max(c(0.0)).sqrt();
         // Off the knots, where the density may be 0.
-        let tau = ((area + area) / (f_0 + root).max(c(1e-37))).max(c(1e-7)).min(c(1.0 - f32::EPSILON));
+        let tau = ((area + area) / (g_0 + root).max(c(1e-37))).max(c(1e-7)).min(c(1.0 - f32::EPSILON));
         // What is left of tau, and of v, is never 0.
         let left = one - tau;
         let p_v = tau.mul_add(f_1, left * f_0);
@@ -271,12 +302,12 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
 
         let y_rest = self.y_c / (self.e + rest);
         let y = y_rest * v;
-        let to_y_b = y_rest * rest * ((one + self.e) / self.e);
+        let to_y_b = y_rest * rest * (one + self.inv_e);
         let x = self.x_a + y;
         let h_x = g.h / x;
         let half = c(0.5);
-        let from_a = (half * y * (g.h / self.x_a).mul_add(h_x, one)).min(g.length);
-        let to_b = (half * to_y_b * (g.h / self.x_b).mul_add(h_x, one)).min(g.length);
+        let from_a = (half * y * self.h_x_a.mul_add(h_x, one)).min(g.length);
+        let to_b = (half * to_y_b * self.h_x_b.mul_add(h_x, one)).min(g.length);
         let r = half * g.h.mul_add(h_x, x);
         // t' from where the least cancels: X, or an end.
         let (scale_a, scale_b) = (g.a.t_prime.abs() + from_a, g.b.t_prime.abs() + to_b);
@@ -284,7 +315,7 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
         let by_x = half * (x - g.h * h_x);
         let t_prime = I::V::select(scale_a.min(scale_b).lt(r), by_end, by_x).max(g.a.t_prime).min(g.b.t_prime);
         let point = g.point_between(isa, from_a, to_b, t_prime, r);
-        let s = (self.e + rest) / (one + self.e);
+        let s = (self.e + rest) * self.w_0;
         let pdf = self.pdf_over_v(isa, p_v, s, x, r);
         Drawn { point, pdf, bisected: none(isa) }
     }
@@ -302,8 +333,8 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
         let y = (g.way_from_a(isa, point) * ((self.x_a + x) / (g.a.r + point.r))).min(self.y_b);
         let to_y_b = g.way_to_b(isa, point) * ((self.x_b + x) / (g.b.r + point.r));
         let s = self.y_c / (y + self.y_c);
-        let v = (y * (one + self.e) / (y + self.y_c)).min(one);
-        let rest = (to_y_b * (self.e * s) / self.y_c).min(one);
+        let v = (y * ((one + self.e) * self.inv_y_c) * s).min(one);
+        let rest = (to_y_b * (self.e * s) * self.inv_y_c).min(one);
         let (segment, _) = self.segment(isa, |i, _| c(Self::V[i]).le(v));
         // Next to the end the density may vanish as 1 - v, which v alone does not tell.
         let from_0 = (v - segment.v_0).max(c(0.0));
