@@ -12,28 +12,75 @@ impl fmt::Display for Figures {
         let all_threads = distinct(rows.iter().map(|row| Some(row.subject.threads)));
         for &threads in &all_threads {
             let of_these: Vec<&Row> = rows.iter().filter(|row| row.subject.threads == threads).collect();
-            section(f, &format!("{} limits", counted(threads)), &limits(&of_these))?;
-            section(f, &format!("{} memory [GB/s]", counted(threads)), &memory(&of_these))?;
-            section(f, &format!("{} time per sample [ns]", counted(threads)), &times(&of_these))?;
+            let counted = format!("{threads} {}", if threads == 1 { "thread" } else { "threads" });
+            section(f, &format!("limits of arithmetic, {counted} [1e9/s]"), &limits(&of_these))?;
+            section(f, &format!("limits of memory by rays of a batch, {counted} [GB/s]"), &memory(&of_these))?;
+            section(f, &format!("time of a sample by rays of a batch, {counted} [ns]"), &times(&of_these))?;
         }
         let times = |row: &&Row| row.ratio.is_none() && row.subject.strategy.is_some();
         let staged: Vec<&Row> = rows.iter().filter(times).collect();
         let largest = staged.iter().filter(|row| is_stage(&row.subject)).filter_map(|row| row.subject.rays).max();
         if let Some(rays) = largest {
-            section(f, &format!("stages, 1 thread, batches of {rays} [ns]"), &stages(&staged, rays))?;
+            section(f, &format!("stages of a sample, 1 thread, batches of {rays} [ns]"), &stages(&staged, rays))?;
         }
-        let against = |other: &'static str| rows.iter().filter(move |row| row.against == Some(other));
-        for (other, title) in [
-            ("portable", "times as fast as portable"),
-            ("one thread", "times as fast as with one thread"),
-            ("equi-angular", "times the cost of equi-angular"),
-            ("peer", "times as fast as peers"),
-            ("taylor-transmittance", "times as fast as taylor-transmittance"),
-        ] {
-            section(f, title, &ratios(&against(other).collect::<Vec<_>>()))?;
+        self.comparisons(f)?;
+        writeln!(f, "medians; +- %: how far the farthest round of a row is from its median")?;
+        writeln!(f, "limit: what the kernel is nearest to, and the share of its time that this alone would take")?;
+        writeln!(
+            f,
+            "stages: differences of runs up to their ends, which write to memory what the whole has in registers"
+        )
+    }
+}
+
+impl Figures {
+    /// Ratios, of the fastest backend where they are not about backends.
+    fn comparisons(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let against = |other: &'static str| self.0.iter().filter(move |row| row.against == Some(other));
+        let fastest = self.0.iter().find_map(|row| row.subject.backend);
+        let of_fastest = |row: &&Row| row.subject.backend == fastest;
+        let alone = |row: &&Row| row.subject.threads == 1;
+
+        let to_portable: Vec<&Row> = against("portable").filter(alone).collect();
+        // The slower backends are measured on small batches alone.
+        let backends = |rays| to_portable.iter().filter(|row| row.subject.rays == Some(rays)).count();
+        let sizes = distinct(to_portable.iter().map(|row| row.subject.rays));
+        if let Some(rays) = sizes.into_iter().max_by_key(|&rays| (backends(rays), rays)) {
+            let rows: Vec<&Row> = to_portable.iter().copied().filter(|row| row.subject.rays == Some(rays)).collect();
+            section(f, &format!("times as fast as portable, 1 thread, batches of {rays}"), &by_backend(&rows))?;
         }
-        writeln!(f, "medians; +- is how far the farthest round of a row is from its median")?;
-        writeln!(f, "limit: what the kernel is nearest to, and the share of its time that this alone would take")
+        let of_threads = against("one thread").filter(of_fastest).filter(|row| row.subject.threads > 1);
+        section(
+            f,
+            "times as fast as with one thread",
+            &ratios(&of_threads.collect::<Vec<_>>(), |subject| {
+                format!("{}, {} threads", subject.strategy.unwrap_or("-"), subject.threads)
+            }),
+        )?;
+        let costs = against("equi-angular").filter(of_fastest).filter(alone);
+        section(
+            f,
+            "times the cost of equi-angular, 1 thread",
+            &ratios(&costs.collect::<Vec<_>>(), |subject| {
+                let strategy = subject.strategy.unwrap_or("-");
+                match subject.samples_per_ray {
+                    1 => strategy.to_owned(),
+                    several => format!("{strategy}, {several} per ray"),
+                }
+            }),
+        )?;
+        let peers = against("peer").chain(against("taylor-transmittance")).filter(of_fastest).filter(alone);
+        section(
+            f,
+            "times as fast as others, 1 thread",
+            &ratios(&peers.collect::<Vec<_>>(), |subject| {
+                let strategy = subject.strategy.unwrap_or("-");
+                match subject.peer {
+                    Some(peer) => format!("{strategy} : peer {peer}"),
+                    None => format!("{strategy} : taylor-transmittance"),
+                }
+            }),
+        )
     }
 }
 
@@ -43,10 +90,6 @@ fn section(f: &mut fmt::Formatter<'_>, title: &str, table: &Table) -> fmt::Resul
         return Ok(());
     }
     writeln!(f, "{title}\n{}\n", table::text(table))
-}
-
-fn counted(threads: usize) -> String {
-    format!("{threads} {},", if threads == 1 { "thread" } else { "threads" })
 }
 
 fn is_stage(subject: &Subject) -> bool {
@@ -80,7 +123,7 @@ fn cell(figure: Option<f64>) -> String {
 }
 
 fn limits(rows: &[&Row]) -> Table {
-    let mut table = table::new(["backend", "multiply-adds [G/s]", "divisions [G/s]"]);
+    let mut table = table::new(["backend", "multiply-adds", "divisions"]);
     let arithmetic = || rows.iter().filter(|row| row.subject.limit.is_some() && row.subject.rays.is_none());
     for backend in distinct(arithmetic().map(|row| row.subject.backend)) {
         let rate = |limit| {
@@ -95,7 +138,7 @@ fn limits(rows: &[&Row]) -> Table {
 fn memory(rows: &[&Row]) -> Table {
     let memory = || rows.iter().filter(|row| row.gb_per_s.is_some());
     let sizes = distinct(memory().map(|row| row.subject.rays));
-    let mut table = by_size(&["rays"], &sizes, &[]);
+    let mut table = by_size(&["columns"], &sizes, &[]);
     for limit in distinct(memory().map(|row| row.subject.limit)) {
         let rate = |&rays: &usize| {
             let row = memory().find(|row| row.subject.limit == Some(limit) && row.subject.rays == Some(rays));
@@ -136,9 +179,9 @@ fn times(rows: &[&Row]) -> Table {
 }
 
 fn stages(rows: &[&Row], rays: usize) -> Table {
-    let shared = "8 per ray";
     let stages = ["geometry", "set-up", "inversion", "output", TOTAL, "with-weight"];
-    let mut table = table::new(["strategy", "backend"].into_iter().chain(stages).chain([shared]));
+    let heads = ["strategy", "backend", "geometry", "set-up", "inversion", "output", "total", "weight", "8 per ray"];
+    let mut table = table::new(heads);
     let kernel = |row: &Row| Some((row.subject.strategy?, row.subject.backend?));
     for wanted in distinct(rows.iter().map(|row| kernel(row))) {
         let of_kernel = || rows.iter().filter(|row| row.subject.threads == 1 && kernel(row) == Some(wanted));
@@ -160,27 +203,31 @@ fn stages(rows: &[&Row], rays: usize) -> Table {
     table
 }
 
-/// Ratios by size: of every kernel but those that are compared with themselves.
-fn ratios(rows: &[&Row]) -> Table {
-    let sizes = distinct(rows.iter().map(|row| row.subject.rays.map(|rays| rays * row.subject.samples_per_ray)));
-    let mut table = by_size(&["strategy", "backend", "threads", "samples/ray"], &sizes, &["+- %"]);
-    let kernel = |row: &Row| Subject { rays: None, ..row.subject };
-    for wanted in distinct(rows.iter().map(|row| Some(kernel(row)))) {
-        let of_kernel: Vec<&&Row> = rows.iter().filter(|row| kernel(row) == wanted).collect();
-        let ratio = |&samples: &usize| {
-            let of = |row: &&&&Row| row.subject.rays.map(|rays| rays * row.subject.samples_per_ray) == Some(samples);
-            cell(of_kernel.iter().find(of).and_then(|row| row.ratio))
+/// Ratios of a strategy on each backend.
+fn by_backend(rows: &[&Row]) -> Table {
+    let backends = distinct(rows.iter().map(|row| row.subject.backend));
+    let mut table = table::new(["strategy"].into_iter().chain(backends.iter().copied()));
+    for strategy in distinct(rows.iter().map(|row| row.subject.strategy)) {
+        let ratio = |&backend: &&str| {
+            let of = |row: &&&Row| row.subject.strategy == Some(strategy) && row.subject.backend == Some(backend);
+            cell(rows.iter().find(of).and_then(|row| row.ratio))
         };
-        let deviation = of_kernel.iter().filter_map(|row| Some(100.0 * row.deviation(row.ratio?)));
-        let strategy = wanted.strategy.unwrap_or("-");
-        let names = [
-            wanted.peer.map_or(strategy.to_owned(), |peer| format!("{strategy} ({peer})")),
-            wanted.backend.unwrap_or("-").to_owned(),
-            wanted.threads.to_string(),
-            wanted.samples_per_ray.to_string(),
-        ];
-        let deviation = format!("{:.0}", deviation.fold(0.0, f64::max));
-        table.add_row(names.into_iter().chain(sizes.iter().map(ratio)).chain([deviation]));
+        table.add_row([strategy.to_owned()].into_iter().chain(backends.iter().map(ratio)));
+    }
+    table
+}
+
+/// Ratios by the number of samples, a row for each name.
+fn ratios(rows: &[&Row], name: impl Fn(&Subject) -> String) -> Table {
+    let samples = |row: &Row| Some(row.subject.rays? * row.subject.samples_per_ray);
+    let sizes = distinct(rows.iter().map(|row| samples(row)));
+    let mut table = by_size(&["strategy"], &sizes, &["+- %"]);
+    for wanted in distinct(rows.iter().map(|row| Some(name(&row.subject)))) {
+        let named: Vec<&&Row> = rows.iter().filter(|row| name(&row.subject) == wanted).collect();
+        let ratio = |&size: &usize| cell(named.iter().find(|row| samples(row) == Some(size)).and_then(|row| row.ratio));
+        let deviation = named.iter().filter_map(|row| Some(100.0 * row.deviation(row.ratio?))).fold(0.0, f64::max);
+        let cells = sizes.iter().map(ratio).chain([format!("{deviation:.0}")]);
+        table.add_row([wanted.clone()].into_iter().chain(cells));
     }
     table
 }
