@@ -65,6 +65,8 @@ mod error;
 mod geometry;
 mod integrand;
 mod inversion;
+#[cfg(feature = "measure")]
+mod limits;
 pub mod oracle;
 mod road;
 mod sampler;
@@ -75,6 +77,12 @@ mod strategy;
 pub use batch::{Counts, Emitters, Media, Rays, Samples};
 pub use error::Error;
 pub use glam;
+#[cfg(feature = "measure")]
+#[doc(hidden)]
+pub use limits::{Limit, Operations};
+#[cfg(feature = "measure")]
+#[doc(hidden)]
+pub use road::stages::Stage;
 pub use sampler::{Sample, Sampler};
 pub use scene::{Emitter, FARTHEST, Medium, Ray, UNIT_TOLERANCE};
 pub use simd::Backend;

@@ -3,6 +3,9 @@
 //! A batch is cut into chunks that stay in a core's cache; a chunk goes through the kernel of one strategy, a lane
 //! group at a time. No ray's arithmetic knows where in the batch it stands: chunks and threads change no bit.
 
+#[cfg(feature = "measure")]
+pub(crate) mod stages;
+
 use crate::Strategy;
 use crate::batch::{Column, Counts, Inputs, OfSamples, Outputs, Padded, Samples, Turn};
 use crate::density::Density;

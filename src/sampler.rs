@@ -155,6 +155,25 @@ impl Sampler {
         Ok(road::travel::<road::Evaluate>(self.backend, Strategy::EquiAngular, &inputs, integrand))
     }
 
+    /// Goes the road of [`sample`](Self::sample) up to a stage and no further, to time it; nothing is written.
+    ///
+    /// # Errors
+    /// As [`sample`](Self::sample).
+    #[cfg(feature = "measure")]
+    #[doc(hidden)]
+    pub fn up_to(
+        &self,
+        stage: road::stages::Stage,
+        rays: &Rays<'_>,
+        emitters: &Emitters<'_>,
+        media: &Media<'_>,
+        u: &[f32],
+    ) -> Result<(), Error> {
+        let inputs = Inputs::new(rays, emitters, media)?.with(u, "u")?;
+        road::travel::<road::stages::UpTo>(self.backend, self.strategy, &inputs, stage);
+        Ok(())
+    }
+
     /// [`sample`](Self::sample) for one ray; `None` if it has no sample, or `u` is not in `[0, 1]`.
     #[must_use]
     pub fn sample_one(&self, ray: &Ray, emitter: &Emitter, medium: &Medium, u: f32) -> Option<Sample> {

@@ -2,6 +2,8 @@
 //!
 //! A kernel is written once, generic over [`Isa`]; an instruction set is a thin binding of [`Lanes`] and [`Double`].
 
+#[cfg(feature = "measure")]
+pub(crate) mod counting;
 pub(crate) mod math;
 mod pair;
 mod portable;

@@ -1,7 +1,7 @@
 //! Arguments that several subcommands share.
 
 use crate::output::Target;
-use airlight::Medium;
+use airlight::{Backend, Medium};
 use anyhow::Result;
 use std::path::{Path, PathBuf};
 
@@ -46,4 +46,20 @@ pub(crate) fn threads(text: &str) -> Result<usize, String> {
         number @ 1..=1024 => Ok(number),
         _ => Err("expected at most 1024 threads".to_owned()),
     }
+}
+
+/// Reads a number of rays that fit into memory at once.
+pub(crate) fn batch(text: &str) -> Result<usize, String> {
+    match positive(text)? {
+        number if number <= 1 << 28 => Ok(number),
+        _ => Err("expected at most 268435456 rays".to_owned()),
+    }
+}
+
+/// Finds a backend by its name.
+pub(crate) fn backend(name: &str) -> Result<Backend, String> {
+    let names = || Backend::available().map(Backend::name).collect::<Vec<_>>().join(", ");
+    Backend::available()
+        .find(|backend| backend.name() == name)
+        .ok_or_else(|| format!("this machine has no backend of that name; it has {}", names()))
 }

@@ -1,11 +1,14 @@
 //! What measures airlight: families of hard inputs and the errors of the kernels on them, sets of scenes and the
-//! variances of the densities on them.
+//! variances of the densities on them, and the batch on which speed is measured.
 
 pub mod adversary;
 pub mod backends;
 pub mod bounds;
+pub mod column;
 pub mod contender;
 mod draw;
 pub mod errors;
 pub mod families;
 pub mod scenes;
+pub mod threads;
+pub mod workload;

@@ -7,6 +7,7 @@ mod arguments;
 mod check;
 mod npy;
 mod output;
+mod profile;
 mod progress;
 mod sample;
 mod strata;
@@ -37,6 +38,7 @@ enum Command {
     Sample(sample::Args),
     Accuracy(accuracy::Args),
     Variance(variance::Args),
+    Profile(profile::Args),
 }
 
 fn main() -> ExitCode {
@@ -54,6 +56,7 @@ fn main() -> ExitCode {
         Command::Sample(args) => sample::run(&args).map(|()| ExitCode::SUCCESS),
         Command::Accuracy(args) => accuracy::run(&args),
         Command::Variance(args) => variance::run(&args).map(|()| ExitCode::SUCCESS),
+        Command::Profile(args) => profile::run(&args).map(|()| ExitCode::SUCCESS),
     };
     match done {
         Ok(code) => code,

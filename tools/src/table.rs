@@ -1,8 +1,8 @@
 //! Tables of figures: plain columns, the first to the left and all others to the right.
 
-use comfy_table::{CellAlignment, Table, presets};
+use comfy_table::{CellAlignment, Row, Table, presets};
 
-pub(crate) fn new<const COLUMNS: usize>(heads: [&str; COLUMNS]) -> Table {
+pub(crate) fn new(heads: impl Into<Row>) -> Table {
     let mut table = Table::new();
     table.load_style(presets::NOTHING).set_header(heads);
     for column in table.column_iter_mut().skip(1) {

@@ -1,0 +1,115 @@
+//! What a kernel cannot be faster than: the operations it needs, and how many of them a core does.
+
+use crate::batch::{Emitters, Inputs, Media, Rays, Samples};
+use crate::road::{self, Task};
+use crate::simd::counting::Counting;
+use crate::simd::{Backend, Isa, Kernel, Lanes, Number};
+use crate::{Error, Sampler};
+use core::hint::black_box;
+use core::ops::Add;
+
+/// Arithmetic of one lane.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Operations {
+    /// A multiplication and an addition at once; what is in double precision takes the place of two.
+    pub multiply_adds: usize,
+    /// Additions and multiplications by themselves.
+    pub additions: usize,
+    /// Divisions and square roots.
+    pub divisions: usize,
+}
+
+impl Add for Operations {
+    type Output = Self;
+    fn add(self, o: Self) -> Self {
+        Self {
+            multiply_adds: self.multiply_adds + o.multiply_adds,
+            additions: self.additions + o.additions,
+            divisions: self.divisions + o.divisions,
+        }
+    }
+}
+
+impl Sampler {
+    /// What [`sample`](Self::sample) needs for the whole batch, with every lane on its own: where one has to wait for
+    /// others in its group, the group does more. Comparisons, selections and integers are not counted.
+    ///
+    /// # Errors
+    /// As [`sample`](Self::sample).
+    #[doc(hidden)]
+    pub fn operations(
+        &self,
+        rays: &Rays<'_>,
+        emitters: &Emitters<'_>,
+        media: &Media<'_>,
+        u: &[f32],
+        samples: &mut Samples<'_>,
+    ) -> Result<Operations, Error> {
+        let inputs = Inputs::new(rays, emitters, media)?.with(u, "u")?;
+        inputs.check_given("samples.t", samples.t)?;
+        inputs.check_given("samples.pdf", samples.pdf)?;
+        let out = Samples { t: samples.t, pdf: samples.pdf, weight: None, r: None };
+        Ok(Counting::count(|isa| road::Sample::run(isa, self.strategy(), &inputs, out)))
+    }
+}
+
+/// A unit of the core that a kernel may wait for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Limit {
+    /// `x m + a`.
+    MultiplyAdd,
+    /// `1 / x`.
+    Division,
+}
+
+impl Backend {
+    /// Does `steps` operations on each of `chains` independent lane groups, which are 4, 8 or 12; returns how many that
+    /// makes for single lanes.
+    #[doc(hidden)]
+    pub fn strain(self, limit: Limit, chains: usize, steps: usize) -> usize {
+        match chains {
+            4 => self.run(Chains::<4> { limit, steps }),
+            8 => self.run(Chains::<8> { limit, steps }),
+            _ => self.run(Chains::<12> { limit, steps }),
+        }
+    }
+}
+
+/// Independent chains of one operation: enough of them hide its latency, too many do not fit the registers.
+struct Chains<const N: usize> {
+    limit: Limit,
+    steps: usize,
+}
+
+impl<const N: usize> Kernel for Chains<N> {
+    type Output = usize;
+
+    #[inline(always)]
+    fn run<I: Isa>(self, isa: I) -> usize {
+        let [m, a, one] = [0.5, 0.75, 1.0].map(
+            #[inline(always)]
+            |x| isa.splat(black_box(x)),
+        );
+        let mut x = [isa.splat(black_box(1.25)); N];
+        match self.limit {
+            Limit::MultiplyAdd => {
+                for _ in 0..self.steps {
+                    for x in &mut x {
+                        *x = x.mul_add(m, a);
+                    }
+                }
+            }
+            Limit::Division => {
+                for _ in 0..self.steps {
+                    for x in &mut x {
+                        *x = one / *x;
+                    }
+                }
+            }
+        }
+        for x in x {
+            black_box(I::V::bits(x.lt(one)));
+        }
+        N * self.steps * I::V::N
+    }
+}

@@ -1,0 +1,79 @@
+//! The road cut short, to time its stages.
+//!
+//! What a stage has computed is kept from being optimised away by `black_box`, for which it is written to memory: a few
+//! ns per lane group that the whole road does not pay, as it keeps such values in registers where it can.
+
+use super::{Group, OfDensity, Task, by_strategy, for_each_group, for_each_turn};
+use crate::Strategy;
+use crate::batch::{Counts, Inputs, Outputs};
+use crate::density::Density;
+use crate::simd::{Isa, Lanes};
+use core::hint::black_box;
+
+/// How far a ray goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// Columns are loaded, and the geometry is computed.
+    Geometry,
+    /// The density is set up as well.
+    SetUp,
+    /// The points are drawn as well, and not written.
+    Inversion,
+}
+
+/// Goes as far as its output, the stage, says.
+pub(crate) struct UpTo;
+
+/// Nothing is written.
+impl Outputs for Stage {
+    fn split_at(self, _: usize) -> (Self, Self) {
+        (self, self)
+    }
+}
+
+impl Task for UpTo {
+    type Out<'a> = Stage;
+
+    #[inline(always)]
+    fn run<I: Isa>(isa: I, strategy: Strategy, inputs: &Inputs<'_>, stage: Stage) -> Counts {
+        by_strategy::<I, Self>(isa, strategy, inputs, stage)
+    }
+}
+
+impl OfDensity for UpTo {
+    #[inline(always)]
+    fn chunk<I: Isa, D: Density<I>>(isa: I, inputs: &Inputs<'_>, stage: Stage) -> Counts {
+        let zero = isa.splat(0.0);
+        for_each_group(
+            isa,
+            inputs,
+            #[inline(always)]
+            |group| {
+                // Values, not references, go into the black box: the stages beyond keep theirs in registers.
+                if stage == Stage::Geometry {
+                    black_box((group.geometry, group.medium));
+                    return Counts::default();
+                }
+                let density = D::new(isa, &group.geometry, &group.medium);
+                if stage == Stage::SetUp {
+                    black_box((group.geometry, density));
+                    return Counts::default();
+                }
+                let Group { geometry, range, .. } = &group;
+                for_each_turn(
+                    isa,
+                    inputs,
+                    range,
+                    #[inline(always)]
+                    |_, u| {
+                        let valid = group.valid() & zero.le(u) & u.le(isa.splat(1.0));
+                        let drawn = density.invert(isa, geometry, u);
+                        let bisected = drawn.bisected;
+                        black_box(drawn);
+                        group.count(valid, bisected)
+                    },
+                )
+            },
+        )
+    }
+}

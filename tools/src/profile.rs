@@ -1,0 +1,182 @@
+//! `airlight profile`: how fast the kernels are, stage by stage, beside what the machine allows.
+
+mod arithmetic;
+mod clock;
+mod figures;
+mod instructions;
+mod peers;
+mod rounds;
+mod streams;
+mod subject;
+mod work;
+
+use self::arithmetic::{Need, Strain};
+use self::figures::Figures;
+use self::peers::{Peer, Peers};
+use self::rounds::measure;
+use self::streams::Stream;
+use self::work::{Contestant, Work};
+use crate::arguments::{self, Json};
+use crate::{output, progress};
+use airlight::{Backend, Limit, Stage, Strategy};
+use airlight_tools::threads;
+use airlight_tools::workload::{Wanted, Workload};
+use anyhow::{Context, Result};
+use rayon::ThreadPool;
+use std::path::PathBuf;
+
+/// Sizes of batches, unless told otherwise: from what a core's cache holds to what only memory does.
+const SIZES: [usize; 4] = [1 << 12, 1 << 16, 1 << 20, 1 << 24];
+/// The larger ones take a while, so that they are left to the faster backends unless told otherwise.
+const LARGEST_OF_ALL: usize = 1 << 16;
+const LARGEST_OF_PORTABLE: usize = 1 << 20;
+/// Rays whose operations are counted.
+const COUNTED: usize = 4096;
+/// Samples that share the set-up of one ray, where they do.
+const SHARED: usize = 8;
+
+/// Measure how fast every kernel is, its stages apart, beside what the machine allows
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// Rays of a batch, may be repeated [default: 4096, 65536, 1048576, 16777216]
+    #[arg(long, value_name = "RAYS", value_parser = arguments::batch)]
+    rays: Vec<usize>,
+    /// Threads to sample with, may be repeated [default: one, and one per core]
+    #[arg(long, value_name = "N", value_parser = arguments::threads)]
+    threads: Vec<usize>,
+    /// Strategy to measure, may be repeated [default: all]
+    #[arg(long, value_name = "NAME")]
+    strategy: Vec<Strategy>,
+    /// Backend to measure, may be repeated [default: all of this machine, the slower ones on smaller batches]
+    #[arg(long, value_name = "NAME", value_parser = arguments::backend)]
+    backend: Vec<Backend>,
+    /// Rounds in which all take their turn; reported are medians over these [default: 9, or 3 with --quick]
+    #[arg(long, value_name = "ROUNDS", value_parser = arguments::positive)]
+    rounds: Option<usize>,
+    /// Fewer rounds, and batches of 65536 and 1048576 rays unless told otherwise
+    #[arg(long)]
+    quick: bool,
+    /// Measure the kernels of a shared library as well
+    #[arg(long, value_name = "LIBRARY.so")]
+    peers: Option<PathBuf>,
+    /// Count instructions per ray with valgrind, and measure no time
+    #[arg(long, conflicts_with_all = ["rays", "threads", "rounds", "quick", "peers"])]
+    instructions: bool,
+    /// Only draw samples, so many batches of them: what is counted by --instructions
+    #[arg(long, hide = true, requires_all = ["strategy", "backend"])]
+    batches: Option<usize>,
+    #[command(flatten)]
+    json: Json,
+}
+
+/// Measures.
+pub(crate) fn run(args: &Args) -> Result<()> {
+    if let Some(batches) = args.batches {
+        return instructions::sample(&args.strategy, &args.backend, batches);
+    }
+    let json = args.json.target()?;
+    if args.instructions {
+        return match instructions::count(&args.strategies(), &args.backend)? {
+            Some(figures) => output::report(&figures, json.as_ref()),
+            None => Ok(()),
+        };
+    }
+    let peers = args.peers.as_deref().map(Peers::load).transpose()?;
+    let pools = args.pools()?;
+    let (sizes, rounds) = (args.sizes(), args.rounds.unwrap_or(if args.quick { 3 } else { 9 }));
+    let largest = sizes.iter().copied().max().unwrap_or(0);
+    let mut workload = Workload::new(largest);
+
+    let batches: Vec<_> = sizes.iter().map(|&rays| (rays, args.contestants(rays, &pools, peers.as_ref()))).collect();
+    let samples: usize = batches.iter().map(|(rays, contestants)| rays * contestants.len()).sum();
+    let progress = progress::bar(samples.saturating_mul(rounds + 1))?;
+    progress.set_message("limits of arithmetic");
+    let strains = measure(args.strains(&pools), rounds, |strain| Ok(strain.time()))?;
+    let counted = COUNTED.min(largest);
+    let need = |&strategy: &Strategy| Ok((strategy, Need::of(strategy, counted, &mut workload)?));
+    let needs: Vec<(Strategy, Need)> = args.strategies().iter().map(need).collect::<Result<_>>()?;
+
+    let mut measured: Vec<_> = strains.into_iter().map(|(strain, times)| (strain.subject(), times)).collect();
+    for (rays, contestants) in batches {
+        progress.set_message(format!("batches of {rays}"));
+        let batch = measure(contestants, rounds, |contestant| {
+            let time = contestant.time(&mut workload);
+            progress.inc(rays as u64);
+            time
+        })?;
+        measured.extend(batch.into_iter().map(|(contestant, times)| (contestant.subject(), times)));
+    }
+    progress.finish_and_clear();
+    output::report(&Figures::new(&measured, &needs), json.as_ref())
+}
+
+impl Args {
+    fn strategies(&self) -> Vec<Strategy> {
+        if self.strategy.is_empty() { Strategy::ALL.to_vec() } else { self.strategy.clone() }
+    }
+
+    fn sizes(&self) -> Vec<usize> {
+        let default = if self.quick { &SIZES[1..3] } else { &SIZES };
+        if self.rays.is_empty() { default.to_vec() } else { self.rays.clone() }
+    }
+
+    fn pools(&self) -> Result<Vec<ThreadPool>> {
+        let threads = if self.threads.is_empty() { threads::one_and_all() } else { self.threads.clone() };
+        threads.into_iter().map(|n| threads::pool(n).context("cannot start the threads")).collect()
+    }
+
+    /// The backends to measure on batches of that size, the fastest first.
+    fn backends(&self, rays: usize) -> Vec<Backend> {
+        if !self.backend.is_empty() {
+            return self.backend.clone();
+        }
+        let all = Backend::available().enumerate().filter(|(index, backend)| match backend.name() {
+            _ if *index == 0 => true,
+            "portable" => rays <= LARGEST_OF_PORTABLE,
+            _ => rays <= LARGEST_OF_ALL,
+        });
+        all.map(|(_, backend)| backend).collect()
+    }
+
+    /// The limits of arithmetic.
+    fn strains<'a>(&self, pools: &'a [ThreadPool]) -> Vec<Strain<'a>> {
+        let mut strains = Vec::new();
+        for backend in self.backends(0) {
+            for limit in [Limit::MultiplyAdd, Limit::Division] {
+                strains.extend(pools.iter().map(|pool| Strain { limit, backend, pool }));
+            }
+        }
+        strains
+    }
+
+    /// All that is measured on batches of one size.
+    fn contestants<'a>(&self, rays: usize, pools: &'a [ThreadPool], peers: Option<&'a Peers>) -> Vec<Contestant<'a>> {
+        let backends = self.backends(rays);
+        let strategies = self.strategies();
+        let mut contestants = Vec::new();
+        for pool in pools {
+            let alone = pool.current_num_threads() == 1;
+            let mut enter = |work| contestants.push(Contestant { work, samples: rays, pool });
+            Stream::ALL.into_iter().for_each(|stream| enter(Work::Stream(stream)));
+            for &backend in &backends {
+                for &strategy in &strategies {
+                    let sample = |per_ray, wanted| Work::Sample { strategy, backend, per_ray, wanted };
+                    enter(sample(1, Wanted::Densities));
+                    if alone && rays <= LARGEST_OF_ALL {
+                        for stage in [Stage::Geometry, Stage::SetUp, Stage::Inversion] {
+                            enter(Work::UpTo { strategy, backend, stage });
+                        }
+                        enter(sample(1, Wanted::Weights));
+                        if rays.is_multiple_of(SHARED) {
+                            enter(sample(SHARED, Wanted::Densities));
+                        }
+                    }
+                }
+            }
+            if let Some(peers) = peers.filter(|_| alone) {
+                Peer::ALL.into_iter().for_each(|peer| enter(Work::Peer(peers, peer)));
+            }
+        }
+        contestants
+    }
+}

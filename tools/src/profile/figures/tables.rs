@@ -1,0 +1,240 @@
+//! The figures as tables.
+
+use super::super::subject::{Subject, TOTAL};
+use super::{Figures, Row};
+use crate::table;
+use comfy_table::Table;
+use std::fmt;
+
+impl fmt::Display for Figures {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self(rows) = self;
+        let all_threads = distinct(rows.iter().map(|row| Some(row.subject.threads)));
+        for &threads in &all_threads {
+            let of_these: Vec<&Row> = rows.iter().filter(|row| row.subject.threads == threads).collect();
+            let counted = format!("{threads} {}", if threads == 1 { "thread" } else { "threads" });
+            section(f, &format!("limits of arithmetic, {counted} [1e9/s]"), &limits(&of_these))?;
+            section(f, &format!("limits of memory by rays of a batch, {counted} [GB/s]"), &memory(&of_these))?;
+            section(f, &format!("time of a sample by rays of a batch, {counted} [ns]"), &times(&of_these))?;
+        }
+        let times = |row: &&Row| row.ratio.is_none() && row.subject.strategy.is_some();
+        let staged: Vec<&Row> = rows.iter().filter(times).collect();
+        let largest = staged.iter().filter(|row| is_stage(&row.subject)).filter_map(|row| row.subject.rays).max();
+        if let Some(rays) = largest {
+            section(f, &format!("stages of a sample, 1 thread, batches of {rays} [ns]"), &stages(&staged, rays))?;
+        }
+        self.comparisons(f)?;
+        writeln!(f, "medians; +- %: how far the farthest round of a row is from its median")?;
+        writeln!(f, "limit: what the kernel is nearest to, and the share of its time that this alone would take")?;
+        writeln!(
+            f,
+            "stages: differences of runs up to their ends, which write to memory what the whole has in registers"
+        )
+    }
+}
+
+impl Figures {
+    /// Ratios, of the fastest backend where they are not about backends.
+    fn comparisons(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let against = |other: &'static str| self.0.iter().filter(move |row| row.against == Some(other));
+        let fastest = self.0.iter().find_map(|row| row.subject.backend);
+        let of_fastest = |row: &&Row| row.subject.backend == fastest;
+        let alone = |row: &&Row| row.subject.threads == 1;
+
+        let to_portable: Vec<&Row> = against("portable").filter(alone).collect();
+        // The slower backends are measured on small batches alone.
+        let backends = |rays| to_portable.iter().filter(|row| row.subject.rays == Some(rays)).count();
+        let sizes = distinct(to_portable.iter().map(|row| row.subject.rays));
+        if let Some(rays) = sizes.into_iter().max_by_key(|&rays| (backends(rays), rays)) {
+            let rows: Vec<&Row> = to_portable.iter().copied().filter(|row| row.subject.rays == Some(rays)).collect();
+            section(f, &format!("times as fast as portable, 1 thread, batches of {rays}"), &by_backend(&rows))?;
+        }
+        let of_threads = against("one thread").filter(of_fastest).filter(|row| row.subject.threads > 1);
+        section(
+            f,
+            "times as fast as with one thread",
+            &ratios(&of_threads.collect::<Vec<_>>(), |subject| {
+                format!("{}, {} threads", subject.strategy.unwrap_or("-"), subject.threads)
+            }),
+        )?;
+        let costs = against("equi-angular").filter(of_fastest).filter(alone);
+        section(
+            f,
+            "times the cost of equi-angular, 1 thread",
+            &ratios(&costs.collect::<Vec<_>>(), |subject| {
+                let strategy = subject.strategy.unwrap_or("-");
+                match subject.samples_per_ray {
+                    1 => strategy.to_owned(),
+                    several => format!("{strategy}, {several} per ray"),
+                }
+            }),
+        )?;
+        let peers = against("peer").chain(against("taylor-transmittance")).filter(of_fastest).filter(alone);
+        section(
+            f,
+            "times as fast as others, 1 thread",
+            &ratios(&peers.collect::<Vec<_>>(), |subject| {
+                let strategy = subject.strategy.unwrap_or("-");
+                match subject.peer {
+                    Some(peer) => format!("{strategy} : peer {peer}"),
+                    None => format!("{strategy} : taylor-transmittance"),
+                }
+            }),
+        )
+    }
+}
+
+/// A table with its title, if there is anything in it.
+fn section(f: &mut fmt::Formatter<'_>, title: &str, table: &Table) -> fmt::Result {
+    if table.row_count() == 0 {
+        return Ok(());
+    }
+    writeln!(f, "{title}\n{}\n", table::text(table))
+}
+
+fn is_stage(subject: &Subject) -> bool {
+    !matches!(subject.stage, None | Some(TOTAL | "with-weight"))
+}
+
+/// Those that there are, in the order in which they come.
+fn distinct<T: PartialEq>(values: impl Iterator<Item = Option<T>>) -> Vec<T> {
+    let mut distinct = Vec::new();
+    for value in values.flatten() {
+        if !distinct.contains(&value) {
+            distinct.push(value);
+        }
+    }
+    distinct
+}
+
+/// A table with a column for each size of batches, after the `first` and before the `last`.
+fn by_size(first: &[&str], sizes: &[usize], last: &[&str]) -> Table {
+    let first = first.iter().map(ToString::to_string);
+    let last = last.iter().map(ToString::to_string);
+    table::new(first.chain(sizes.iter().map(ToString::to_string)).chain(last))
+}
+
+fn cell(figure: Option<f64>) -> String {
+    match figure {
+        None => "-".to_owned(),
+        Some(figure) if figure.abs() < 10.0 => format!("{figure:.2}"),
+        Some(figure) => format!("{figure:.1}"),
+    }
+}
+
+fn limits(rows: &[&Row]) -> Table {
+    let mut table = table::new(["backend", "multiply-adds", "divisions"]);
+    let arithmetic = || rows.iter().filter(|row| row.subject.limit.is_some() && row.subject.rays.is_none());
+    for backend in distinct(arithmetic().map(|row| row.subject.backend)) {
+        let rate = |limit| {
+            let row = arithmetic().find(|row| row.subject.backend == Some(backend) && row.subject.limit == Some(limit));
+            cell(row.and_then(|row| row.ns_per_sample).map(f64::recip))
+        };
+        table.add_row([backend.to_owned(), rate("fma"), rate("division")]);
+    }
+    table
+}
+
+fn memory(rows: &[&Row]) -> Table {
+    let memory = || rows.iter().filter(|row| row.gb_per_s.is_some());
+    let sizes = distinct(memory().map(|row| row.subject.rays));
+    let mut table = by_size(&["columns"], &sizes, &[]);
+    for limit in distinct(memory().map(|row| row.subject.limit)) {
+        let rate = |&rays: &usize| {
+            let row = memory().find(|row| row.subject.limit == Some(limit) && row.subject.rays == Some(rays));
+            cell(row.and_then(|row| row.gb_per_s))
+        };
+        table.add_row([limit.to_owned()].into_iter().chain(sizes.iter().map(rate)));
+    }
+    table
+}
+
+/// Kernels that write `t` and `pdf`, ours and those of peers.
+fn times(rows: &[&Row]) -> Table {
+    let whole = |row: &&&Row| {
+        row.ns_per_sample.is_some() && row.subject.stage == Some(TOTAL) && row.subject.samples_per_ray == 1
+    };
+    let whole = || rows.iter().filter(whole);
+    let sizes = distinct(whole().map(|row| row.subject.rays));
+    let mut table = by_size(&["strategy", "backend"], &sizes, &["+- %", "Msamples/s", "limit", "%"]);
+    let kernel = |row: &Row| Subject { rays: None, ..row.subject };
+    for wanted in distinct(whole().map(|row| Some(kernel(row)))) {
+        let of_kernel: Vec<&&Row> = whole().filter(|row| kernel(row) == wanted).collect();
+        let time = |&rays: &usize| {
+            cell(of_kernel.iter().find(|row| row.subject.rays == Some(rays)).and_then(|row| row.ns_per_sample))
+        };
+        let best = of_kernel.iter().max_by(|a, b| a.msamples_per_s.partial_cmp(&b.msamples_per_s).expect("no NaN"));
+        let deviation = of_kernel.iter().filter_map(|row| Some(100.0 * row.deviation(row.ns_per_sample?)));
+        let names = [wanted.strategy.or(wanted.peer), wanted.backend.or(Some("peer"))];
+        let last = [
+            format!("{:.0}", deviation.fold(0.0, f64::max)),
+            cell(best.and_then(|row| row.msamples_per_s)),
+            best.and_then(|row| row.bound_by).unwrap_or("-").to_owned(),
+            best.and_then(|row| row.share).map_or("-".to_owned(), |share| format!("{:.0}", 100.0 * share)),
+        ];
+        let names = names.map(|name| name.unwrap_or("-").to_owned());
+        table.add_row(names.into_iter().chain(sizes.iter().map(time)).chain(last));
+    }
+    table
+}
+
+fn stages(rows: &[&Row], rays: usize) -> Table {
+    let stages = ["geometry", "set-up", "inversion", "output", TOTAL, "with-weight"];
+    let heads = ["strategy", "backend", "geometry", "set-up", "inversion", "output", "total", "weight", "8 per ray"];
+    let mut table = table::new(heads);
+    let kernel = |row: &Row| Some((row.subject.strategy?, row.subject.backend?));
+    for wanted in distinct(rows.iter().map(|row| kernel(row))) {
+        let of_kernel = || rows.iter().filter(|row| row.subject.threads == 1 && kernel(row) == Some(wanted));
+        let time = |stage| {
+            let alone = |row: &&&Row| row.subject.samples_per_ray == 1 && row.subject.rays == Some(rays);
+            of_kernel().filter(alone).find(|row| row.subject.stage == Some(stage)).and_then(|row| row.ns_per_sample)
+        };
+        if time(stages[0]).is_none() {
+            continue;
+        }
+        let together = |row: &&&Row| {
+            let Subject { rays: of, samples_per_ray, .. } = row.subject;
+            samples_per_ray > 1 && of == Some(rays / samples_per_ray)
+        };
+        let together = of_kernel().find(together).and_then(|row| row.ns_per_sample);
+        let names = [wanted.0, wanted.1].map(str::to_owned);
+        table.add_row(names.into_iter().chain(stages.map(|stage| cell(time(stage)))).chain([cell(together)]));
+    }
+    table
+}
+
+/// Ratios of a strategy on each backend.
+fn by_backend(rows: &[&Row]) -> Table {
+    let backends = distinct(rows.iter().map(|row| row.subject.backend));
+    let mut table = table::new(["strategy"].into_iter().chain(backends.iter().copied()));
+    for strategy in distinct(rows.iter().map(|row| row.subject.strategy)) {
+        let ratio = |&backend: &&str| {
+            let of = |row: &&&Row| row.subject.strategy == Some(strategy) && row.subject.backend == Some(backend);
+            cell(rows.iter().find(of).and_then(|row| row.ratio))
+        };
+        table.add_row([strategy.to_owned()].into_iter().chain(backends.iter().map(ratio)));
+    }
+    table
+}
+
+/// Ratios by the number of samples, a row for each name.
+fn ratios(rows: &[&Row], name: impl Fn(&Subject) -> String) -> Table {
+    let samples = |row: &Row| Some(row.subject.rays? * row.subject.samples_per_ray);
+    let sizes = distinct(rows.iter().map(|row| samples(row)));
+    let mut table = by_size(&["strategy"], &sizes, &["+- %"]);
+    for wanted in distinct(rows.iter().map(|row| Some(name(&row.subject)))) {
+        let named: Vec<&&Row> = rows.iter().filter(|row| name(&row.subject) == wanted).collect();
+        let ratio = |&size: &usize| cell(named.iter().find(|row| samples(row) == Some(size)).and_then(|row| row.ratio));
+        let deviation = named.iter().filter_map(|row| Some(100.0 * row.deviation(row.ratio?))).fold(0.0, f64::max);
+        let cells = sizes.iter().map(ratio).chain([format!("{deviation:.0}")]);
+        table.add_row([wanted.clone()].into_iter().chain(cells));
+    }
+    table
+}
+
+impl Row {
+    /// How far the farthest round is from the median, in units of it.
+    fn deviation(&self, median: f64) -> f64 {
+        (self.max - median).max(median - self.min) / median
+    }
+}

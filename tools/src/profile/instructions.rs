@@ -1,0 +1,91 @@
+//! Instructions per ray, as callgrind counts them: to the last one, on any machine, whatever else it does.
+
+use super::work::{Contestant, Work};
+use crate::table;
+use airlight::{Backend, Strategy};
+use airlight_tools::threads;
+use airlight_tools::workload::{Wanted, Workload};
+use anyhow::{Context, Result, ensure};
+use serde::Serialize;
+use std::env;
+use std::fmt;
+use std::process::Command;
+
+/// Rays of a batch, a multiple of any number of lanes.
+const RAYS: usize = 4096;
+/// Batches of the two runs: what starting up takes is in both.
+const BATCHES: [usize; 2] = [1, 5];
+/// Valgrind knows no AVX-512.
+const UNKNOWN: &str = "avx512";
+
+/// A row per strategy and backend.
+#[derive(Debug, Serialize)]
+#[serde(transparent)]
+pub(super) struct Figures(Vec<Row>);
+
+/// The names of the fields are the keys of the JSON, which others read.
+#[derive(Debug, Serialize)]
+struct Row {
+    strategy: &'static str,
+    backend: &'static str,
+    instructions_per_ray: f64,
+}
+
+/// Counts, on the fastest backend that valgrind knows unless told otherwise; none without valgrind.
+pub(super) fn count(strategies: &[Strategy], backends: &[Backend]) -> Result<Option<Figures>> {
+    if Command::new("valgrind").arg("--version").output().is_err() {
+        eprintln!("valgrind is missing: no instructions are counted");
+        return Ok(None);
+    }
+    ensure!(backends.iter().all(|backend| backend.name() != UNKNOWN), "valgrind knows no {UNKNOWN}");
+    let fastest = Backend::available().find(|backend| backend.name() != UNKNOWN);
+    let backends = if backends.is_empty() { fastest.as_slice() } else { backends };
+    let mut rows = Vec::new();
+    for backend in backends {
+        for strategy in strategies {
+            let [few, many] = BATCHES.map(|batches| instructions(*strategy, *backend, batches));
+            let rays = RAYS * (BATCHES[1] - BATCHES[0]);
+            let instructions_per_ray = (many? - few?) as f64 / rays as f64;
+            rows.push(Row { strategy: strategy.name(), backend: backend.name(), instructions_per_ray });
+        }
+    }
+    Ok(Some(Figures(rows)))
+}
+
+/// Those of a run of this command that does nothing but [`sample`].
+fn instructions(strategy: Strategy, backend: Backend, batches: usize) -> Result<i64> {
+    let output = Command::new("valgrind")
+        .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
+        .arg(env::current_exe()?)
+        .args(["profile", "--strategy", strategy.name(), "--backend", backend.name()])
+        .args(["--batches", &batches.to_string()])
+        .output()?;
+    let told = String::from_utf8_lossy(&output.stderr);
+    let collected = told.lines().find_map(|line| line.split_once("Collected : ")?.1.trim().parse().ok());
+    collected.filter(|_| output.status.success()).with_context(|| format!("valgrind failed:\n{told}"))
+}
+
+/// Draws a sample for each ray of so many batches.
+pub(super) fn sample(strategies: &[Strategy], backends: &[Backend], batches: usize) -> Result<()> {
+    let mut workload = Workload::new(RAYS);
+    let pool = threads::pool(1).context("cannot start a thread")?;
+    for &strategy in strategies {
+        for &backend in backends {
+            let work = Work::Sample { strategy, backend, per_ray: 1, wanted: Wanted::Densities };
+            let contestant = Contestant { work, samples: RAYS, pool: &pool };
+            (0..batches).try_for_each(|_| contestant.run(&mut workload))?;
+        }
+    }
+    Ok(())
+}
+
+impl fmt::Display for Figures {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut table = table::new(["strategy", "backend", "instructions/ray"]);
+        for row in &self.0 {
+            let cells = [row.strategy, row.backend].map(str::to_owned);
+            table.add_row(cells.into_iter().chain([format!("{:.1}", row.instructions_per_ray)]));
+        }
+        writeln!(f, "{}", table::text(&table))
+    }
+}

@@ -1,0 +1,119 @@
+//! `airlight profile`, as it is met from outside. No time is a promise: what is checked is what is measured at all.
+
+use airlight::{Backend, Strategy};
+use serde_json::Value;
+use std::process::{Command, Output};
+
+fn profile(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_airlight")).arg("profile").args(arguments).output().unwrap()
+}
+
+/// The rows of a run that must succeed and say nothing on standard error.
+fn rows(arguments: &[&str]) -> Vec<Value> {
+    let output = profile(&[arguments, &["--json", "-"]].concat());
+    let stderr = String::from_utf8(output.stderr).unwrap();
+    assert_eq!((output.status.code(), &*stderr), (Some(0), ""), "{arguments:?}");
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+fn is_positive(value: &Value) -> bool {
+    value.as_f64().is_some_and(|value| value > 0.0)
+}
+
+#[test]
+fn every_strategy_is_measured_on_every_backend_and_number_of_threads() {
+    let rows = rows(&["--rays", "64", "--rays", "71", "--threads", "1", "--threads", "2", "--rounds", "1"]);
+    for strategy in Strategy::ALL {
+        for backend in Backend::available() {
+            for threads in [1, 2] {
+                for rays in [64, 71] {
+                    let whole = |row: &&Value| {
+                        row["strategy"] == strategy.name()
+                            && row["backend"] == backend.name()
+                            && row["threads"] == threads
+                            && row["rays"] == rays
+                            && row["samples_per_ray"] == 1
+                            && row["stage"] == "total"
+                            && row["against"].is_null()
+                    };
+                    let [row] = rows.iter().filter(whole).collect::<Vec<_>>()[..] else {
+                        panic!("{strategy}, {}, {threads} threads, {rays} rays", backend.name());
+                    };
+                    let keys = ["ns_per_sample", "msamples_per_s", "min", "max", "share"];
+                    assert!(keys.iter().all(|&key| is_positive(&row[key])), "{row}");
+                    assert!(["fma", "division", "stream"].iter().any(|limit| row["bound_by"] == *limit), "{row}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn stages_add_up_to_the_whole() {
+    let rows = rows(&["--rays", "64", "--threads", "1", "--rounds", "1", "--strategy", "product-3"]);
+    for backend in Backend::available() {
+        let time = |stage: &str| {
+            let of_stage =
+                |row: &&Value| row["stage"] == stage && row["backend"] == backend.name() && row["samples_per_ray"] == 1;
+            rows.iter().find(of_stage).unwrap()["ns_per_sample"].as_f64().unwrap()
+        };
+        let sum: f64 = ["geometry", "set-up", "inversion", "output"].map(time).iter().sum();
+        let total = time("total");
+        assert!((sum - total).abs() < 1e-9 * total, "{}: {sum} and {total}", backend.name());
+        assert!(time("with-weight") > 0.0);
+    }
+}
+
+#[test]
+fn limits_and_ratios_are_rows_of_the_same_list() {
+    let rows = rows(&["--rays", "64", "--threads", "1", "--rounds", "2", "--backend", "portable"]);
+    for limit in ["fma", "division", "read", "write", "stream"] {
+        let of_limit = |row: &&Value| row["limit"] == limit && row["strategy"].is_null();
+        let [row] = rows.iter().filter(of_limit).collect::<Vec<_>>()[..] else { panic!("{limit}") };
+        assert!(is_positive(&row["ns_per_sample"]), "{row}");
+    }
+    let ratio = |strategy: &str, against: &str, samples_per_ray: usize| {
+        let of_both = |row: &&Value| {
+            row["strategy"] == strategy && row["against"] == against && row["samples_per_ray"] == samples_per_ray
+        };
+        let row = rows.iter().find(of_both).unwrap_or_else(|| panic!("{strategy} against {against}"));
+        assert!(row["ns_per_sample"].is_null(), "{row}");
+        row["ratio"].as_f64().unwrap()
+    };
+    // With itself.
+    assert_eq!(ratio("product-9", "portable", 1), 1.0);
+    assert_eq!(ratio("product-9", "one thread", 1), 1.0);
+    assert_eq!(ratio("equi-angular", "equi-angular", 1), 1.0);
+    // The set-up is shared by 8 samples.
+    assert!(ratio("product-9", "equi-angular", 8) > 0.0);
+}
+
+#[test]
+fn a_table_fits_a_terminal() {
+    let output = profile(&["--rays", "64", "--rounds", "1", "--strategy", "taylor-transmittance"]);
+    let table = String::from_utf8(output.stdout).unwrap();
+    assert!(table.lines().all(|line| line.chars().count() <= 100), "{table}");
+    for title in ["limits of arithmetic", "limits of memory", "time of a sample", "stages", "times as fast as portable"]
+    {
+        assert!(table.contains(title), "{title}: {table}");
+    }
+}
+
+#[test]
+fn a_refused_argument_is_named() {
+    for (arguments, expected) in [
+        (&["--rays", "0"][..], "--rays <RAYS>': expected a whole number of at least 1"),
+        (&["--rays", "268435457"], "--rays <RAYS>': expected at most 268435456 rays"),
+        (&["--threads", "0"], "--threads <N>': expected a whole number of at least 1"),
+        (&["--rounds", "0"], "--rounds <ROUNDS>': expected a whole number of at least 1"),
+        (&["--strategy", "best"], "no strategy is called 'best'; there are transmittance"),
+        (&["--backend", "best"], "this machine has no backend of that name; it has "),
+        (&["--peers", "no/such/library.so"], "cannot load no/such/library.so"),
+    ] {
+        let output = profile(arguments);
+        let told = String::from_utf8(output.stderr).unwrap();
+        assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0), "{arguments:?}: {told}");
+        assert!(told.starts_with("error: ") && told.lines().count() == 1, "{arguments:?}: {told}");
+        assert!(told.contains(expected), "{told}");
+    }
+}
