@@ -30,11 +30,12 @@ objdump --disassemble --demangle --no-show-raw-insn "$binary" | awk '
     /vfn?m(add|sub)[0-9]+p[sd] .*%ymm/ { wide["avx2"] += isa == "avx2" }
 
     # Direct calls; those to the standard library go through a table. What may be called is what ends the program, what
-    # copies the lanes at the end of a batch, and a kernel from where it is chosen.
+    # copies lanes, what collects those of several variates, and a kernel from where it is chosen.
     /\tcall +[0-9a-f]+ </ {
         callee = $0
         sub(/.*\tcall +[0-9a-f]+ </, "", callee)
         sub(/>$/, "", callee)
+        if (callee ~ /Turn>?::(gather|scatter)$/) next
         if (callee ~ /core::panicking|_index_fail|len_mismatch_fail|mem(cpy|move|set)/) next
         if (isa == "portable" && callee ~ /::vectorize::inner/) next
         outlined[callee " (called by a kernel of " isa ")"]++

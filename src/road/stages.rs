@@ -3,7 +3,7 @@
 //! What a stage has computed is kept from being optimised away by `black_box`, for which it is written to memory: a few
 //! ns per lane group that the whole road does not pay, as it keeps such values in registers where it can.
 
-use super::{Group, OfDensity, Task, by_strategy, for_each_group, for_each_turn};
+use super::{Group, OfDensity, Task, by_strategy, count, for_each_group, for_each_turn};
 use crate::Strategy;
 use crate::batch::{Counts, Inputs, Outputs};
 use crate::density::Density;
@@ -26,13 +26,19 @@ pub(crate) struct UpTo;
 
 /// Nothing is written.
 impl Outputs for Stage {
-    fn split_at(self, _: usize) -> (Self, Self) {
-        (self, self)
+    type At<'a> = Self;
+
+    fn split_at<'a>(out: Self::At<'a>, _: usize) -> (Self::At<'a>, Self::At<'a>) {
+        (out, out)
+    }
+
+    fn by_pads<R>(out: Self, write: impl FnOnce(Self) -> R) -> R {
+        write(out)
     }
 }
 
 impl Task for UpTo {
-    type Out<'a> = Stage;
+    type Out = Stage;
 
     #[inline(always)]
     fn run<I: Isa>(isa: I, strategy: Strategy, inputs: &Inputs<'_>, stage: Stage) -> Counts {
@@ -59,18 +65,19 @@ impl OfDensity for UpTo {
                     black_box((group.geometry, density));
                     return Counts::default();
                 }
-                let Group { geometry, range, .. } = &group;
+                let lit = D::lit(isa, &group.geometry);
+                let Group { geometry, index, .. } = &group;
                 for_each_turn(
                     isa,
                     inputs,
-                    range,
+                    *index,
                     #[inline(always)]
                     |_, u| {
                         let valid = group.valid() & zero.le(u) & u.le(isa.splat(1.0));
                         let drawn = density.invert(isa, geometry, u);
                         let bisected = drawn.bisected;
                         black_box(drawn);
-                        group.count(valid, bisected)
+                        count::<I>(valid, lit, bisected)
                     },
                 )
             },

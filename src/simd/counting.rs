@@ -76,6 +76,7 @@ impl Isa for Counting {
     type V = Counted<f32>;
     type Mask = bool;
     type Double = Counted<f64>;
+    type Group = f32;
 
     fn splat(self, x: f32) -> Counted<f32> {
         Counted(x)
@@ -83,8 +84,17 @@ impl Isa for Counting {
     fn splat_double(self, x: f64) -> Counted<f64> {
         Counted(x)
     }
-    fn load_padded(self, s: &[f32]) -> Counted<f32> {
-        Counted(s[0])
+    fn groups(column: &[f32]) -> &[f32] {
+        column
+    }
+    fn groups_mut(column: &mut [f32]) -> &mut [f32] {
+        column
+    }
+    fn load(self, group: &f32) -> Counted<f32> {
+        Counted(*group)
+    }
+    fn store(self, lanes: Counted<f32>, group: &mut f32) {
+        *group = lanes.0;
     }
 }
 
@@ -133,9 +143,6 @@ impl Lanes for Counted<f32> {
     }
     fn narrow(d: Counted<f64>) -> Self {
         Self(f32::narrow(d.0))
-    }
-    fn store_prefix(self, out: &mut [f32]) {
-        self.0.store_prefix(out);
     }
 }
 
