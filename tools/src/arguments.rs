@@ -4,6 +4,7 @@ use crate::output::Target;
 use airlight::Medium;
 use anyhow::Result;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 /// Where the figures go beside the table.
 #[derive(Debug, clap::Args)]
@@ -46,4 +47,10 @@ pub(crate) fn threads(text: &str) -> Result<usize, String> {
         number @ 1..=1024 => Ok(number),
         _ => Err("expected at most 1024 threads".to_owned()),
     }
+}
+
+/// Reads a number of seconds.
+pub(crate) fn seconds(text: &str) -> Result<Duration, String> {
+    let read = text.parse().ok().and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
+    read.filter(|time| !time.is_zero()).ok_or_else(|| "expected a number of seconds greater than 0".to_owned())
 }

@@ -8,11 +8,11 @@ mod check;
 mod npy;
 mod output;
 mod progress;
+mod render;
 mod sample;
 mod strata;
 mod table;
 mod variance;
-mod variates;
 mod wavefront;
 
 use clap::error::ErrorKind;
@@ -35,6 +35,7 @@ struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     Sample(sample::Args),
+    Render(render::Args),
     Accuracy(accuracy::Args),
     Variance(variance::Args),
 }
@@ -52,6 +53,7 @@ fn main() -> ExitCode {
     };
     let done = match command {
         Command::Sample(args) => sample::run(&args).map(|()| ExitCode::SUCCESS),
+        Command::Render(args) => render::run(&args).map(|()| ExitCode::SUCCESS),
         Command::Accuracy(args) => accuracy::run(&args),
         Command::Variance(args) => variance::run(&args).map(|()| ExitCode::SUCCESS),
     };
