@@ -45,7 +45,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "N", value_parser = arguments::positive, conflicts_with = "time")]
     spp: Option<usize>,
     /// Render whole passes until so many seconds are over
-    #[arg(long, value_name = "SECONDS", value_parser = arguments::seconds)]
+    #[arg(long, value_name = "SECONDS", value_parser = arguments::seconds, allow_negative_numbers = true)]
     time: Option<Duration>,
     /// Width and height of the picture in pixels
     #[arg(long, value_name = "WxH", default_value = "512x288")]

@@ -51,7 +51,8 @@ fn exr(picture: &Picture) -> Result<Vec<u8>> {
     };
     let image = Image::from_channels((width, picture.size.height), SpecificChannels::rgb(pixel));
     let mut bytes = Cursor::new(Vec::new());
-    image.write().to_buffered(&mut bytes)?;
+    // In parallel the blocks would come in any order.
+    image.write().non_parallel().to_buffered(&mut bytes)?;
     Ok(bytes.into_inner())
 }
 

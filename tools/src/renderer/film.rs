@@ -54,6 +54,12 @@ impl Film {
         self.passes += 1;
     }
 
+    /// The sum of a layer over the passes.
+    #[must_use]
+    pub fn sum(&self, layer: Layer) -> &[[f64; 3]] {
+        &self.layers[layer as usize]
+    }
+
     /// The mean radiance of a layer.
     #[must_use]
     pub fn mean(&self, layer: Layer) -> Vec<[f64; 3]> {

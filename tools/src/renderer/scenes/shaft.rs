@@ -27,7 +27,6 @@ pub(super) fn scene() -> Result<Scene, Error> {
         plane(Vec3::new(0.0, 0.0, -8.0), Vec3::Z, stone),
         sphere(Vec3::new(-2.75, 2.25, 1.5), 0.25, stone),
         sphere(Vec3::new(-1.1, 0.75, -0.25), 0.75, Vec3::new(0.75, 0.4, 0.25)),
-        sphere(Vec3::new(0.9, 0.45, 1.2), 0.45, stone),
         sphere(Vec3::new(-1.6, 0.6, -4.6), 0.6, Vec3::new(0.35, 0.5, 0.6)),
     ];
     let emitter = Emitter::point_normal(sun, Vec3::new(0.72, -0.69, 0.06).normalize())?;
