@@ -6,7 +6,7 @@ use glam::Vec3;
 use rayon::prelude::*;
 
 /// What a shadow ray leaves out at both its ends \[m\]: the surface it starts from, and the lamp.
-const GAP: f32 = 1e-3;
+const GAP: f32 = 1e-4;
 
 /// A shadow ray for each pixel of the wave, as columns.
 #[derive(Clone, Debug, Default)]
