@@ -22,6 +22,7 @@ use anyhow::{Context, Result, ensure};
 use serde::Serialize;
 use std::fmt::Display;
 use std::path::PathBuf;
+use std::slice::from_mut;
 use std::time::Duration;
 
 /// Passes, unless told otherwise.
@@ -95,7 +96,8 @@ fn single(args: &Args, scene: &Scene) -> Result<(Figures, Picture)> {
     let settings = args.settings(args.strategy.first().copied().unwrap_or(Strategy::Product5));
     let progress = progress::bar(exposure::STEPS)?;
     progress.set_message(settings.strategy.name());
-    let exposure = Exposure::new(scene, args.size, &settings, args.budget(), &progress)?;
+    let mut exposure = Exposure::new(scene, args.size, &settings, args.budget());
+    Exposure::complete(from_mut(&mut exposure), &progress)?;
     progress.finish_and_clear();
     let figures =
         Figures { job: args.job(), run: Run::new(settings.strategy, &exposure), radiance: exposure.film.average() };

@@ -44,36 +44,36 @@ pub(super) fn compare(args: &Args, scene: &Scene) -> Result<(Comparison, Picture
     let strategies = strategies(&args.strategy);
     let progress = progress::bar((strategies.len() + 2) * STEPS)?;
     progress.set_message("reference");
-    let mut reference = Vec::new();
-    for half in 1..=2 {
-        // Its seeds are its own: shared random numbers would be shared errors.
+    // Its seeds are its own: shared random numbers would be shared errors.
+    let half = |half: u64| {
         let seed = args.seed.wrapping_add(half << 62);
-        let settings = Settings { strategy: REFERENCE, mis: false, seed, ..args.settings(REFERENCE) };
-        let budget = Budget::Passes(args.reference.div_ceil(2) as u64);
-        reference.push(Exposure::new(scene, args.size, &settings, budget, &progress)?.film);
-    }
+        let settings = Settings { mis: false, seed, ..args.settings(REFERENCE) };
+        Exposure::new(scene, args.size, &settings, Budget::Passes(args.reference.div_ceil(2) as u64))
+    };
+    let mut halves = [half(1), half(2)];
+    Exposure::complete(&mut halves, &progress)?;
+    let reference = halves.map(|half| half.film);
 
-    let mut pictures = vec![("reference".to_owned(), mean_picture(&reference))];
-    let mut exposures = Vec::new();
-    for strategy in strategies {
-        progress.set_message(strategy.name());
-        let exposure = Exposure::new(scene, args.size, &args.settings(strategy), args.budget(), &progress)?;
-        pictures.push((strategy.name().to_owned(), exposure.film.picture()));
-        exposures.push((strategy, exposure));
-    }
+    progress.set_message("strategies in turn");
+    let exposure = |&strategy: &Strategy| Exposure::new(scene, args.size, &args.settings(strategy), args.budget());
+    let mut exposures: Vec<Exposure<'_>> = strategies.iter().map(exposure).collect();
+    Exposure::complete(&mut exposures, &progress)?;
     progress.finish_and_clear();
 
-    let airlight = Errors::new(&reference, &exposures, |film| film.mean(Layer::Airlight));
-    let picture = Errors::new(&reference, &exposures, Film::total);
-    let row = |(i, (strategy, exposure)): (usize, &(Strategy, Exposure))| Row {
-        run: Run::new(*strategy, exposure),
+    let baseline = strategies.iter().position(|&strategy| strategy == BASELINE);
+    let airlight = Errors::new(&reference, &exposures, baseline, |film| film.mean(Layer::Airlight));
+    let picture = Errors::new(&reference, &exposures, baseline, Film::total);
+    let row = |(i, (&strategy, exposure))| Row {
+        run: Run::new(strategy, exposure),
         airlight_rmse: airlight.rmse(i),
         airlight_efficiency: airlight.efficiency(i),
         picture_rmse: picture.rmse(i),
         picture_efficiency: picture.efficiency(i),
     };
-    let results = exposures.iter().enumerate().map(row).collect();
+    let results = strategies.iter().zip(&exposures).enumerate().map(row).collect();
     let reference_passes = reference.iter().map(Film::passes).sum();
+    let mut pictures = vec![("reference", mean_picture(&reference))];
+    pictures.extend(strategies.iter().zip(&exposures).map(|(strategy, e)| (strategy.name(), e.film.picture())));
     let comparison = Comparison { job: args.job(), reference_passes, results };
     Ok((comparison, sheet::lay_out(&pictures, 1.0 / scene.exposure)))
 }
@@ -105,18 +105,22 @@ struct Errors {
 }
 
 impl Errors {
-    fn new(reference: &[Film], exposures: &[(Strategy, Exposure)], mean: impl Fn(&Film) -> Vec<[f64; 3]>) -> Self {
+    fn new(
+        reference: &[Film],
+        exposures: &[Exposure<'_>],
+        baseline: Option<usize>,
+        mean: impl Fn(&Film) -> Vec<[f64; 3]>,
+    ) -> Self {
         let [first, second] = [0, 1].map(|half| mean(&reference[half]));
         let middle: Vec<[f64; 3]> =
             first.iter().zip(&second).map(|(a, b)| std::array::from_fn(|c| 0.5 * (a[c] + b[c]))).collect();
         // The error of the mean of two halves is half their difference; what it adds to all others is taken off them.
         let of_reference = 0.25 * mean_squared(&first, &second);
-        let row = |(_, exposure): &(Strategy, Exposure)| {
+        let row = |exposure: &Exposure<'_>| {
             let error = mean_squared(&mean(&exposure.film), &middle) - of_reference;
             (Some(error).filter(|error| *error > 0.0), exposure.elapsed.as_secs_f64())
         };
         let rows: Vec<_> = exposures.iter().map(row).collect();
-        let baseline = exposures.iter().position(|(strategy, _)| *strategy == BASELINE);
         let mut errors = Self { rows, baseline: None };
         errors.baseline = baseline.and_then(|i| errors.cost(i));
         errors

@@ -20,42 +20,51 @@ pub(super) enum Budget {
     Time(Duration),
 }
 
-/// An exposed film, and how that went.
+/// A film that is being exposed, and how that goes.
 #[derive(Debug)]
-pub(super) struct Exposure {
+pub(super) struct Exposure<'a> {
+    renderer: Renderer<'a>,
+    budget: Budget,
     pub(super) film: Film,
-    /// Distances that were sampled.
-    pub(super) samples: u64,
     pub(super) elapsed: Duration,
-    /// The part of it spent in calls of airlight.
-    pub(super) inside: Duration,
 }
 
-impl Exposure {
-    /// Renders `scene`, and takes `progress` on by [`STEPS`].
-    pub(super) fn new(
-        scene: &Scene,
-        size: Size,
-        settings: &Settings,
-        budget: Budget,
-        progress: &ProgressBar,
-    ) -> Result<Self, Error> {
-        let mut film = Film::new(size);
-        let mut renderer = Renderer::new(scene, size, settings);
+impl<'a> Exposure<'a> {
+    pub(super) fn new(scene: &'a Scene, size: Size, settings: &Settings, budget: Budget) -> Self {
+        let renderer = Renderer::new(scene, size, settings);
+        Self { renderer, budget, film: Film::new(size), elapsed: Duration::ZERO }
+    }
+
+    /// Exposes them all, in turns of a pass: what else the machine does falls on all alike.
+    pub(super) fn complete(exposures: &mut [Self], progress: &ProgressBar) -> Result<(), Error> {
         let start = progress.position();
-        let clock = Instant::now();
-        loop {
-            renderer.pass(&mut film)?;
-            let spent = match budget {
-                Budget::Passes(passes) => film.passes() as f64 / passes as f64,
-                Budget::Time(time) => clock.elapsed().as_secs_f64() / time.as_secs_f64(),
-            };
-            progress.set_position(start + (STEPS as f64 * spent.min(1.0)) as u64);
-            if spent >= 1.0 {
-                break;
+        while exposures.iter().any(|exposure| exposure.spent() < 1.0) {
+            for exposure in exposures.iter_mut().filter(|exposure| exposure.spent() < 1.0) {
+                let clock = Instant::now();
+                exposure.renderer.pass(&mut exposure.film)?;
+                exposure.elapsed += clock.elapsed();
             }
+            let spent: f64 = exposures.iter().map(|exposure| exposure.spent().min(1.0)).sum();
+            progress.set_position(start + (STEPS as f64 * spent) as u64);
         }
-        let samples = film.passes() * (size.pixels() * renderer.samples_per_pixel()) as u64;
-        Ok(Self { film, samples, elapsed: clock.elapsed(), inside: renderer.inside_airlight() })
+        Ok(())
+    }
+
+    /// The part of the budget that is spent.
+    fn spent(&self) -> f64 {
+        match self.budget {
+            Budget::Passes(passes) => self.film.passes() as f64 / passes as f64,
+            Budget::Time(time) => self.elapsed.as_secs_f64() / time.as_secs_f64(),
+        }
+    }
+
+    /// Distances that were sampled.
+    pub(super) fn samples(&self) -> u64 {
+        self.film.passes() * (self.film.size().pixels() * self.renderer.samples_per_pixel()) as u64
+    }
+
+    /// The part of the time that was spent in calls of airlight.
+    pub(super) fn inside_airlight(&self) -> Duration {
+        self.renderer.inside_airlight()
     }
 }

@@ -43,15 +43,15 @@ pub(super) struct Figures {
 }
 
 impl Run {
-    pub(super) fn new(strategy: Strategy, exposure: &Exposure) -> Self {
+    pub(super) fn new(strategy: Strategy, exposure: &Exposure<'_>) -> Self {
         let seconds = exposure.elapsed.as_secs_f64();
         Self {
             strategy: strategy.name(),
             passes: exposure.film.passes(),
-            samples: exposure.samples,
+            samples: exposure.samples(),
             seconds,
-            msamples_per_s: exposure.samples as f64 / (1e6 * seconds),
-            airlight_share: exposure.inside.as_secs_f64() / seconds,
+            msamples_per_s: exposure.samples() as f64 / (1e6 * seconds),
+            airlight_share: exposure.inside_airlight().as_secs_f64() / seconds,
         }
     }
 }
