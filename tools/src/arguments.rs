@@ -4,6 +4,7 @@ use crate::output::Target;
 use airlight::{Backend, Medium};
 use anyhow::Result;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 /// Where the figures go beside the table.
 #[derive(Debug, clap::Args)]
@@ -62,4 +63,10 @@ pub(crate) fn backend(name: &str) -> Result<Backend, String> {
     Backend::available()
         .find(|backend| backend.name() == name)
         .ok_or_else(|| format!("this machine has no backend of that name; it has {}", names()))
+}
+
+/// Reads a number of seconds.
+pub(crate) fn seconds(text: &str) -> Result<Duration, String> {
+    let read = text.parse().ok().and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
+    read.filter(|time| !time.is_zero()).ok_or_else(|| "expected a number of seconds greater than 0".to_owned())
 }

@@ -1,10 +1,10 @@
 //! The oracle's word on a subset of a wavefront's rays.
 
 use crate::strata::Strata;
-use crate::variates;
 use crate::wavefront::Wavefront;
 use airlight::oracle::Scene;
 use airlight::{Medium, Strategy};
+use airlight_tools::variates;
 use rayon::prelude::*;
 
 /// Relative size of a difference that f32 weights cannot resolve, however many of them are averaged. Nor can they hold

@@ -1,5 +1,6 @@
 //! What measures airlight: families of hard inputs and the errors of the kernels on them, sets of scenes and the
-//! variances of the densities on them, and the batch on which speed is measured.
+//! variances of the densities on them, and the batch on which speed is measured. And what embeds it: a small wavefront
+//! renderer.
 
 pub mod adversary;
 pub mod backends;
@@ -9,6 +10,8 @@ pub mod contender;
 mod draw;
 pub mod errors;
 pub mod families;
+pub mod renderer;
 pub mod scenes;
 pub mod threads;
+pub mod variates;
 pub mod workload;

@@ -9,11 +9,11 @@ mod npy;
 mod output;
 mod profile;
 mod progress;
+mod render;
 mod sample;
 mod strata;
 mod table;
 mod variance;
-mod variates;
 mod wavefront;
 
 use clap::error::ErrorKind;
@@ -36,6 +36,7 @@ struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     Sample(sample::Args),
+    Render(render::Args),
     Accuracy(accuracy::Args),
     Variance(variance::Args),
     Profile(profile::Args),
@@ -54,6 +55,7 @@ fn main() -> ExitCode {
     };
     let done = match command {
         Command::Sample(args) => sample::run(&args).map(|()| ExitCode::SUCCESS),
+        Command::Render(args) => render::run(&args).map(|()| ExitCode::SUCCESS),
         Command::Accuracy(args) => accuracy::run(&args),
         Command::Variance(args) => variance::run(&args).map(|()| ExitCode::SUCCESS),
         Command::Profile(args) => profile::run(&args).map(|()| ExitCode::SUCCESS),

@@ -1,7 +1,7 @@
 //! Uniform variates by counter: each is a hash of a seed and an index, so no result depends on who draws it when.
 
 /// Fills `u` with the variates number `first`, `first + 1`, ... of `seed`: multiples of 2^-24 in `[0, 1)`.
-pub(crate) fn fill(seed: u64, first: u64, u: &mut [f32]) {
+pub fn fill(seed: u64, first: u64, u: &mut [f32]) {
     let key = mix(seed ^ GOLDEN);
     for (index, u) in (first..).zip(u) {
         *u = uniform(mix(key.wrapping_add(index.wrapping_mul(GOLDEN))));

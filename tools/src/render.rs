@@ -1,0 +1,147 @@
+//! `airlight render`: renders a built-in scene with the wavefront renderer, or compares the densities on it.
+
+mod comparison;
+mod exposure;
+mod figures;
+mod image_file;
+mod sheet;
+
+use self::exposure::{Budget, Exposure};
+use self::figures::{Figures, Job, Run};
+use self::image_file::ImageFile;
+use crate::arguments::{self, Json};
+use crate::output::{self, Target};
+use crate::progress;
+use airlight::Strategy;
+use airlight_tools::renderer::Settings;
+use airlight_tools::renderer::emitter_choice::EmitterChoice;
+use airlight_tools::renderer::picture::{Picture, Size};
+use airlight_tools::renderer::scene::Scene;
+use airlight_tools::renderer::scenes::Name;
+use anyhow::{Context, Result, ensure};
+use serde::Serialize;
+use std::fmt::Display;
+use std::path::PathBuf;
+use std::slice::from_mut;
+use std::time::Duration;
+
+/// Passes, unless told otherwise.
+const PASSES: usize = 64;
+
+/// Render a scene of spheres and planes in fog; or compare the strategies on it
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// Scene: shaft, many-lights, forward or dense
+    #[arg(long, value_name = "NAME", default_value_t = Name::Shaft)]
+    scene: Name,
+    #[arg(long, value_name = "NAME", help = format!("Strategy of the distances [default: product-5]; with --compare it may be repeated [default: all of {}]", names()))]
+    strategy: Vec<Strategy>,
+    /// Sample every ray from the transmittance too, and combine the two samples by the balance heuristic
+    #[arg(long)]
+    mis: bool,
+    /// Choice of the light that a ray gathers: uniform, or radiance for the estimates of product-3
+    #[arg(long, value_name = "NAME", default_value_t = EmitterChoice::Radiance)]
+    lights: EmitterChoice,
+    /// Passes, each of which takes one sample of every pixel [default: 64]
+    #[arg(long, value_name = "N", value_parser = arguments::positive, conflicts_with = "time")]
+    spp: Option<usize>,
+    /// Render whole passes until so many seconds are over
+    #[arg(long, value_name = "SECONDS", value_parser = arguments::seconds, allow_negative_numbers = true)]
+    time: Option<Duration>,
+    /// Width and height of the picture in pixels
+    #[arg(long, value_name = "WxH", default_value = "512x288")]
+    size: Size,
+    /// Seed of the random numbers
+    #[arg(long, default_value_t = 0)]
+    seed: u64,
+    /// Threads to render with, at most 1024 [default: one per core]
+    #[arg(long, value_name = "N", value_parser = arguments::threads)]
+    threads: Option<usize>,
+    /// Write the picture: linear to an .exr file, through the tone curve to a .png file
+    #[arg(long, value_name = "IMAGE")]
+    out: Option<PathBuf>,
+    /// Render with each strategy for the same time, or the same number of passes, and report the errors; --out gets
+    /// the pictures side by side
+    #[arg(long)]
+    compare: bool,
+    /// Passes of the picture that errors are measured against, rendered with product-17
+    #[arg(long, value_name = "N", default_value = "1024", value_parser = arguments::positive, requires = "compare")]
+    reference: usize,
+    #[command(flatten)]
+    json: Json,
+}
+
+/// Renders.
+pub(crate) fn run(args: &Args) -> Result<()> {
+    ensure!(args.compare || args.strategy.len() <= 1, "several --strategy need --compare");
+    let out = args.out.as_deref().map(ImageFile::new).transpose()?;
+    let json = args.json.target()?;
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(args.threads.unwrap_or(0))
+        .build()
+        .context("cannot start the threads")?;
+    let scene = args.scene.scene()?;
+
+    if args.compare {
+        let (figures, sheet) = pool.install(|| comparison::compare(args, &scene))?;
+        deliver(&sheet, scene.exposure, out, &figures, json.as_ref())
+    } else {
+        let (figures, picture) = pool.install(|| single(args, &scene))?;
+        deliver(&picture, scene.exposure, out, &figures, json.as_ref())
+    }
+}
+
+/// Renders with one strategy.
+fn single(args: &Args, scene: &Scene) -> Result<(Figures, Picture)> {
+    let settings = args.settings(args.strategy.first().copied().unwrap_or(Strategy::Product5));
+    let progress = progress::bar(exposure::STEPS)?;
+    progress.set_message(settings.strategy.name());
+    let mut exposure = Exposure::new(scene, args.size, &settings, args.budget());
+    Exposure::complete(from_mut(&mut exposure), &progress)?;
+    progress.finish_and_clear();
+    let figures =
+        Figures { job: args.job(), run: Run::new(settings.strategy, &exposure), radiance: exposure.film.average() };
+    Ok((figures, exposure.film.picture()))
+}
+
+/// Writes the picture, then the figures: none of a picture that could not be written.
+fn deliver<F: Serialize + Display>(
+    picture: &Picture,
+    exposure: f32,
+    out: Option<ImageFile>,
+    figures: &F,
+    json: Option<&Target>,
+) -> Result<()> {
+    if let Some(out) = out {
+        out.write(picture, exposure)?;
+    }
+    output::report(figures, json)
+}
+
+impl Args {
+    fn settings(&self, strategy: Strategy) -> Settings {
+        Settings { strategy, mis: self.mis, choice: self.lights, seed: self.seed }
+    }
+
+    fn budget(&self) -> Budget {
+        self.time.map_or(Budget::Passes(self.spp.unwrap_or(PASSES) as u64), Budget::Time)
+    }
+
+    /// What all figures begin with.
+    fn job(&self) -> Job {
+        Job {
+            version: env!("CARGO_PKG_VERSION"),
+            scene: self.scene.name(),
+            width: self.size.width,
+            height: self.size.height,
+            mis: self.mis,
+            lights: self.lights.name(),
+            seed: self.seed,
+            threads: rayon::current_num_threads(),
+        }
+    }
+}
+
+fn names() -> String {
+    Strategy::ALL.iter().map(|s| s.name()).collect::<Vec<_>>().join(", ")
+}

@@ -1,0 +1,181 @@
+//! `--compare`: every strategy with the same budget, beside a picture with far more samples.
+
+use super::exposure::{Budget, Exposure, STEPS};
+use super::figures::{Job, Run};
+use super::{Args, sheet};
+use crate::{progress, table};
+use airlight::Strategy;
+use airlight_tools::renderer::Settings;
+use airlight_tools::renderer::film::{Film, Layer};
+use airlight_tools::renderer::picture::Picture;
+use airlight_tools::renderer::scene::Scene;
+use anyhow::Result;
+use serde::Serialize;
+use std::fmt;
+
+/// What the efficiencies are relative to.
+const BASELINE: Strategy = Strategy::EquiAngular;
+/// What the reference is rendered with.
+const REFERENCE: Strategy = Strategy::Product17;
+
+/// All strategies on a scene.
+#[derive(Debug, Serialize)]
+pub(super) struct Comparison {
+    #[serde(flatten)]
+    job: Job,
+    reference_passes: u64,
+    results: Vec<Row>,
+}
+
+/// One of them; none where the error is not beyond that of the reference.
+#[derive(Debug, Serialize)]
+struct Row {
+    #[serde(flatten)]
+    run: Run,
+    airlight_rmse: Option<f64>,
+    /// `1/(MSE time)` relative to equi-angular.
+    airlight_efficiency: Option<f64>,
+    picture_rmse: Option<f64>,
+    picture_efficiency: Option<f64>,
+}
+
+/// The figures, and the pictures side by side.
+pub(super) fn compare(args: &Args, scene: &Scene) -> Result<(Comparison, Picture)> {
+    let strategies = strategies(&args.strategy);
+    let progress = progress::bar((strategies.len() + 2) * STEPS)?;
+    progress.set_message("reference");
+    // Its seeds are its own: shared random numbers would be shared errors.
+    let half = |half: u64| {
+        let seed = args.seed.wrapping_add(half << 62);
+        let settings = Settings { mis: false, seed, ..args.settings(REFERENCE) };
+        Exposure::new(scene, args.size, &settings, Budget::Passes(args.reference.div_ceil(2) as u64))
+    };
+    let mut halves = [half(1), half(2)];
+    Exposure::complete(&mut halves, &progress)?;
+    let reference = halves.map(|half| half.film);
+
+    progress.set_message("strategies in turn");
+    let exposure = |&strategy: &Strategy| Exposure::new(scene, args.size, &args.settings(strategy), args.budget());
+    let mut exposures: Vec<Exposure<'_>> = strategies.iter().map(exposure).collect();
+    Exposure::complete(&mut exposures, &progress)?;
+    progress.finish_and_clear();
+
+    let baseline = strategies.iter().position(|&strategy| strategy == BASELINE);
+    let airlight = Errors::new(&reference, &exposures, baseline, |film| film.mean(Layer::Airlight));
+    let picture = Errors::new(&reference, &exposures, baseline, Film::total);
+    let row = |(i, (&strategy, exposure))| Row {
+        run: Run::new(strategy, exposure),
+        airlight_rmse: airlight.rmse(i),
+        airlight_efficiency: airlight.efficiency(i),
+        picture_rmse: picture.rmse(i),
+        picture_efficiency: picture.efficiency(i),
+    };
+    let results = strategies.iter().zip(&exposures).enumerate().map(row).collect();
+    let reference_passes = reference.iter().map(Film::passes).sum();
+    let mut pictures = vec![("reference", mean_picture(&reference))];
+    pictures.extend(strategies.iter().zip(&exposures).map(|(strategy, e)| (strategy.name(), e.film.picture())));
+    let comparison = Comparison { job: args.job(), reference_passes, results };
+    Ok((comparison, sheet::lay_out(&pictures, 1.0 / scene.exposure)))
+}
+
+/// Those asked for, or all; the baseline is among them.
+fn strategies(asked: &[Strategy]) -> Vec<Strategy> {
+    let mut strategies = if asked.is_empty() { Strategy::ALL.to_vec() } else { asked.to_vec() };
+    if !strategies.contains(&BASELINE) {
+        strategies.insert(0, BASELINE);
+    }
+    strategies
+}
+
+/// The mean of both halves of the reference.
+fn mean_picture(halves: &[Film]) -> Picture {
+    let mut picture = Picture::black(halves[0].size());
+    for half in halves {
+        for (sum, value) in picture.rgb.iter_mut().flatten().zip(half.picture().rgb.iter().flatten()) {
+            *sum += value / halves.len() as f32;
+        }
+    }
+    picture
+}
+
+/// Mean squared errors and times.
+struct Errors {
+    rows: Vec<(Option<f64>, f64)>,
+    baseline: Option<f64>,
+}
+
+impl Errors {
+    fn new(
+        reference: &[Film],
+        exposures: &[Exposure<'_>],
+        baseline: Option<usize>,
+        mean: impl Fn(&Film) -> Vec<[f64; 3]>,
+    ) -> Self {
+        let [first, second] = [0, 1].map(|half| mean(&reference[half]));
+        let middle: Vec<[f64; 3]> =
+            first.iter().zip(&second).map(|(a, b)| std::array::from_fn(|c| 0.5 * (a[c] + b[c]))).collect();
+        // The error of the mean of two halves is half their difference; what it adds to all others is taken off them.
+        let of_reference = 0.25 * mean_squared(&first, &second);
+        let row = |exposure: &Exposure<'_>| {
+            let error = mean_squared(&mean(&exposure.film), &middle) - of_reference;
+            (Some(error).filter(|error| *error > 0.0), exposure.elapsed.as_secs_f64())
+        };
+        let rows: Vec<_> = exposures.iter().map(row).collect();
+        let mut errors = Self { rows, baseline: None };
+        errors.baseline = baseline.and_then(|i| errors.cost(i));
+        errors
+    }
+
+    fn rmse(&self, i: usize) -> Option<f64> {
+        self.rows[i].0.map(f64::sqrt)
+    }
+
+    fn cost(&self, i: usize) -> Option<f64> {
+        self.rows[i].0.map(|error| error * self.rows[i].1)
+    }
+
+    fn efficiency(&self, i: usize) -> Option<f64> {
+        Some(self.baseline? / self.cost(i)?)
+    }
+}
+
+fn mean_squared(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
+    let squares = a.iter().flatten().zip(b.iter().flatten()).map(|(a, b)| (a - b).powi(2));
+    squares.sum::<f64>() / (3 * a.len()) as f64
+}
+
+impl fmt::Display for Comparison {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{}", self.job)?;
+        writeln!(f, "reference: {} passes with {REFERENCE}\n", self.reference_passes)?;
+
+        let mut table = table::new([
+            "strategy",
+            "passes",
+            "s",
+            "Msamples/s",
+            "in airlight",
+            "RMSE airlight",
+            "efficiency",
+            "RMSE picture",
+            "efficiency",
+        ]);
+        for row in &self.results {
+            let error = |rmse: Option<f64>| rmse.map_or("-".to_owned(), |rmse| format!("{rmse:.2e}"));
+            let efficiency = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.2}"));
+            table.add_row([
+                row.run.strategy.to_owned(),
+                row.run.passes.to_string(),
+                format!("{:.2}", row.run.seconds),
+                format!("{:.2}", row.run.msamples_per_s),
+                format!("{:.0} %", 100.0 * row.run.airlight_share),
+                error(row.airlight_rmse),
+                efficiency(row.airlight_efficiency),
+                error(row.picture_rmse),
+                efficiency(row.picture_efficiency),
+            ]);
+        }
+        writeln!(f, "{}", table::text(&table))?;
+        writeln!(f, "\nefficiency: 1/(MSE time) relative to {BASELINE}; shadows and edges are part of the error")
+    }
+}

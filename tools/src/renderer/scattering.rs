@@ -1,0 +1,85 @@
+//! Fourth stage on the way of the airlight: where along each ray the chosen light is scattered. The stage that
+//! this library is for.
+
+use super::camera::RayQueue;
+use super::emitter_choice::Choice;
+use super::scene::Scene;
+use super::shadow::{ShadowQueue, ShadowRay};
+use airlight::{Error, Media, Sampler, Samples, Strategy};
+
+/// Samples distances from one density, or from two whose samples are combined.
+#[derive(Debug)]
+pub struct Scattering {
+    samplers: Vec<Sampler>,
+    t: Vec<f32>,
+    pdf: Vec<f32>,
+    weight: Vec<f32>,
+    other_pdf: Vec<f32>,
+}
+
+impl Scattering {
+    /// Sampling of `strategy`, and of the transmittance besides if there is multiple importance sampling.
+    #[must_use]
+    pub fn new(strategy: Strategy, mis: bool) -> Self {
+        let strategies: &[Strategy] = if mis { &[strategy, Strategy::Transmittance] } else { &[strategy] };
+        let samplers = strategies.iter().map(|&strategy| Sampler::new(strategy)).collect();
+        Self { samplers, t: Vec::new(), pdf: Vec::new(), weight: Vec::new(), other_pdf: Vec::new() }
+    }
+
+    /// The number of densities: each ray is sampled once with each.
+    #[must_use]
+    pub fn densities(&self) -> usize {
+        self.samplers.len()
+    }
+
+    /// Samples a distance on every ray with density number `density`.
+    ///
+    /// # Errors
+    /// Those of a malformed call of airlight.
+    pub fn sample(
+        &mut self,
+        density: usize,
+        scene: &Scene,
+        queue: &RayQueue,
+        choice: &Choice,
+        u: &[f32],
+    ) -> Result<(), Error> {
+        let Self { samplers, t, pdf, weight, other_pdf } = self;
+        for column in [&mut *t, pdf, weight, other_pdf] {
+            column.resize(queue.len(), 0.0);
+        }
+        let (rays, emitters, media) = (queue.rays(), choice.emitters(), Media::One(scene.medium));
+        samplers[density].sample(
+            &rays,
+            &emitters,
+            &media,
+            u,
+            &mut Samples { t, pdf, weight: Some(weight), r: None },
+        )?;
+        if let [first, second] = &samplers[..] {
+            let other = if density == 0 { second } else { first };
+            other.pdf(&rays, &emitters, &media, t, other_pdf)?;
+            for ((weight, pdf), other) in weight.iter_mut().zip(pdf).zip(other_pdf) {
+                *weight *= balance(*pdf, *other);
+            }
+        }
+        Ok(())
+    }
+
+    /// Sends a shadow ray from every sampled point to its light, with what that adds to the pixel: the weight has all
+    /// but the intensity and the probability of the light.
+    pub fn light(&self, scene: &Scene, rays: &RayQueue, choice: &Choice, shadows: &mut ShadowQueue) {
+        shadows.fill(rays.len(), |i| {
+            let light = choice.light[i];
+            let intensity = scene.lights[light as usize].intensity;
+            let radiance = intensity * (self.weight[i] / choice.probability[i]);
+            ShadowRay { from: rays.point(i, self.t[i]), light, radiance }
+        });
+    }
+}
+
+/// The balance heuristic's weight of a sample, from its density and that of the other strategy.
+fn balance(pdf: f32, other: f32) -> f32 {
+    // Of two densities below f32's range the sample's own is as good as any.
+    if other > 0.0 { 1.0 / (1.0 + other / pdf) } else { 1.0 }
+}
