@@ -5,7 +5,7 @@ use crate::simd::{Isa, Lanes, none};
 /// Steps of Newton's method that a lane may take before it counts as bisected.
 const NEWTON_STEPS: usize = 8;
 /// Steps after which the iteration ends in any case.
-const STEPS: usize = 16;
+const STEPS: usize = 24;
 
 /// Where an increasing function takes a value.
 pub(crate) struct Root<I: Isa> {

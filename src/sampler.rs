@@ -55,9 +55,10 @@ impl Sampler {
     /// makes its ray invalid. Equal inputs give equal bits, wherever they stand in a batch and however many threads
     /// there are.
     ///
-    /// Beyond the rounding of `t` to f32 the CDF at `t` is within 2^-20 of `u` (2^-17 for the Taylor and product densities), and the
-    /// weight is that of a variate so near to `u`, within 1e-3 for 99.9 % of the rays (1e-5 for most), as measured by
-    /// `airlight accuracy`. At u = 0 and 1 a density that vanishes there is sampled next to the end.
+    /// Beyond the rounding of `t` to f32 the CDF at `t` is within 2^-20 of `u`. `r`, to 4 ulp for 99.99 % of rays, and
+    /// the weight, to 2e-5, are those of a distance that rounds to `t`, or of a variate so near to `u`: next to the
+    /// emitter `t` resolves neither. `airlight accuracy` measures it. At u = 0 and 1 a density that vanishes there is
+    /// sampled next to the end.
     ///
     /// # Errors
     /// [`Error::Length`] if a column has another length than `rays.origin[0]`, or `u` one that is no multiple of it, or
@@ -115,8 +116,9 @@ impl Sampler {
     ///
     /// It is the density of what [`sample`](Self::sample) returns, taken at `t` as rounded: where `t` resolves `r` the
     /// two agree within 1e-5, next to the emitter that of `sample` is the exact one. Relative error at a given `t`: below
-    /// 8 x 2^-24 for 99 % of rays (48 for the Taylor densities, 64 for the product), 64 (256) for 99.99 %; where the
-    /// density vanishes with N, relative to a thousandth of its mean over the angle. A density below f32's range is 0.
+    /// 8 x 2^-24 for 99 % of rays (10 for [`Strategy::TaylorPhase`], 64 for the product densities), 64 (256) for 99.99 %;
+    /// below a thousandth of `1/(t_b - t_a)`, the mean over the sampled interval, relative to that. A density below f32's
+    /// range is 0.
     ///
     /// [`Counts::sampled`] counts the rays that have a sample, whether or not it could be at `t`. A NaN in `t` makes
     /// its ray invalid.
@@ -137,8 +139,8 @@ impl Sampler {
     }
 
     /// The integrand `mu_s T rho N / r^2` at given distances `t` \[1/m^3\], the same for every strategy; 0 outside
-    /// `[t_min, t_max]`, and at most `f32::MAX`. Max error 48 ulp where the optical depth is below 30; where N vanishes,
-    /// relative to N = 1e-3.
+    /// `[t_min, t_max]`, and at most `f32::MAX`. Max error 48 ulp where the optical depth is below 30 and the
+    /// ray's line at least 1e-7 of the distance off the emitter; where N vanishes, relative to N = 1e-3.
     ///
     /// # Errors
     /// As [`sample`](Self::sample).

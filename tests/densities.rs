@@ -5,9 +5,15 @@ mod scenes;
 
 use airlight::oracle::quadrature::integrate_pieces;
 use airlight::{Emitter, Medium, Ray, Sampler, Strategy};
+use glam::Vec3;
 use scenes::{Case, Columns, Random, Row, ulp};
 
 const SEED: u64 = 1;
+
+/// A direction or normal as long as any that is accepted.
+fn nearly_unit(random: &mut Random) -> Vec3 {
+    random.unit() * random.between(0.9991, 1.0009)
+}
 
 /// Cases of every kind: an emitter with or without a normal, backward, isotropic and forward scattering, thin and dense,
 /// a ray with an end or without, that starts in the medium or outside.
@@ -21,10 +27,14 @@ fn cases() -> Vec<Case> {
         let mut found = 0;
         while found < 3 {
             let position = random.point();
-            let emitter = if point { Emitter::point(position) } else { Emitter::point_normal(position, random.unit()) };
+            let emitter = if point {
+                Emitter::point(position)
+            } else {
+                Emitter::point_normal(position, nearly_unit(&mut random))
+            };
             let t_min = if outside { random.between(0.5, 3.0) } else { 0.0 };
             let length = if infinite { f32::INFINITY } else { random.between(1.0, 20.0) };
-            let ray = Ray::new(random.point(), random.unit(), t_min, t_min + length);
+            let ray = Ray::new(random.point(), nearly_unit(&mut random), t_min, t_min + length);
             let mu_t = if dense { 3.0 } else { 0.01 };
             let medium = Medium::new(0.4 * mu_t, 0.6 * mu_t, g);
             let case = Case { ray: ray.unwrap(), emitter: emitter.unwrap(), medium: medium.unwrap() };

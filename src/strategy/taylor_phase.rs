@@ -3,7 +3,7 @@
 use super::taylor::{Expansion, ORDER};
 use crate::geometry::Geometry;
 use crate::integrand::MediumLanes;
-use crate::simd::math::{horner, horner_double};
+use crate::simd::math::horner_double;
 use crate::simd::{Isa, Lanes, Number};
 
 pub(crate) struct OfPhase;
@@ -12,9 +12,12 @@ impl<I: Isa> Expansion<I> for OfPhase {
     #[inline(always)]
     fn coefficients(isa: I, _: &Geometry<I>, medium: &MediumLanes<I>) -> [I::Double; ORDER + 1] {
         let c = |x| isa.splat_double(x);
-        let g = medium.g.abs();
         // v_n / v_0 = q^n.
-        let q = (g / g.mul_add(g, isa.splat(1.0))).widen();
+        let (g, one) = (medium.g.abs().widen(), c(1.0));
+        let square = g.mul_add(g, one);
+        // 1/(1 + g^2) with a step of Newton's method.
+        let inverse = (isa.splat(1.0) / I::V::narrow(square)).widen();
+        let q = g * (inverse * (c(2.0) - square * inverse));
         let s = q * q;
         [
             c(1.0),
@@ -28,8 +31,8 @@ impl<I: Isa> Expansion<I> for OfPhase {
     }
 
     #[inline(always)]
-    fn trusted(isa: I, _: &Geometry<I>, medium: &MediumLanes<I>) -> I::V {
-        horner(isa, medium.g.abs(), [51.7683, -160.212, 184.173, -93.8831, 18.8217])
+    fn trusted(isa: I, _: &Geometry<I>, medium: &MediumLanes<I>) -> I::Double {
+        horner_double(isa, medium.g.abs().widen(), [51.7683, -160.212, 184.173, -93.8831, 18.8217])
     }
 
     #[inline(always)]

@@ -7,24 +7,30 @@ use rayon::prelude::*;
 
 /// Rays that are sampled in one call.
 const BATCH: usize = 1 << 14;
-/// Every how many rays the weight and the floor are looked at, which takes the oracle's inverse.
+/// Every how many rays the weight and the floor are looked at, which takes the oracle's inverse many times.
 const WEIGHED: usize = 16;
-/// Below this share of its mean over the angle a density counts as vanishing, and so does N below this value: there
-/// errors are relative to the share of the mean, or to this N.
+/// What counts as vanishing: a density below this share of its mean over the interval, `1/(t_b - t_a)`, and an N below
+/// this value. There errors are relative to that share, or to that of the integrand with this N.
 const VANISHING: f64 = 1e-3;
-/// The change of `u` that the weight's error allows for: what the CDF is promised to.
+/// The change of `u` that the errors of `r` and of the weight allow for: what the CDF is promised to.
 const VARIATE: f64 = 1.0 / (1 << 20) as f64;
+/// The least share of the mass that the point-normal density leaves between an end, where it may vanish, and a sample.
+const OFF_THE_MASS: f64 = 1e-12;
+/// By this share of the distances in it geometry in f64 may move a point.
+const GEOMETRY: f64 = 8.0 * f64::EPSILON;
+/// The least `h`, of the distance to the emitter, that f64 geometry leaves all digits of f32.
+const NEAREST: f64 = 1e-7;
+/// The change of the CDF by half an ulp of `t` up to which `t` resolves it.
+const RESOLVED: f64 = 1.0 / (1 << 18) as f64;
 /// What is left of `u` at either end.
 const OFF_THE_ENDS: f64 = f64::EPSILON / 2.0;
 /// Optical depth up to which the integrand and the weight are compared.
 const DEPTH: f64 = 30.0;
-/// 2^-24.
-const HALF_ULP_OF_1: f64 = f32::EPSILON as f64 / 2.0;
 /// Values below this are too near to the end of f32's range to be compared.
 const TINY: f64 = 1e-30;
 
 /// Kinds of errors that are listed.
-const KINDS: usize = 8;
+const KINDS: usize = 10;
 
 /// The errors of one strategy on one family; the lists ascend.
 #[derive(Clone, Debug, Default)]
@@ -35,18 +41,24 @@ pub struct Errors {
     pub sampled: usize,
     /// `|CDF(t) - u|`.
     pub cdf: Vec<f64>,
-    /// The same in units of what one ulp of `t` changes, or of 2^-24 where that is more.
-    pub cdf_ulp: Vec<f64>,
+    /// The same where `t` resolves it: half an ulp of `t` changes the CDF by 2^-18 at most.
+    pub cdf_resolved: Vec<f64>,
     /// What exact arithmetic rounded to f32 once would have for `cdf`, on every 16th ray.
     pub cdf_floor: Vec<f64>,
-    /// The distance of `u` from the CDF of what rounds to `t`, one ulp either way.
+    /// The distance of `u` from the CDF of all that rounds to `t`: by so much `cdf` may exceed what one rounding makes.
     pub cdf_beyond_t: Vec<f64>,
+    /// The distance from the nearer end of the interval against that of the exact inverse, in ulp of it and beyond one
+    /// rounding of `t`; of the densities with a closed form over the angle.
+    pub offset: Vec<f64>,
     /// The pdf at the returned `t`, relative.
     pub pdf: Vec<f64>,
-    /// The distance `r` beyond what one ulp of `t` changes it, in ulp.
+    /// The distance `r` against those of all that rounds to `t`, or against those of the variates within 2^-20 of `u`,
+    /// in ulp.
     pub r: Vec<f64>,
-    /// The integrand at the returned `t`, in ulp.
+    /// The integrand at the returned `t`, in ulp, where `h` is at least 1e-7 of the distance to the emitter.
     pub integrand: Vec<f64>,
+    /// The same where it is less.
+    pub integrand_near: Vec<f64>,
     /// The weight against that of the exact inverse, relative, beyond what 2^-20 of `u` change it; or against that of
     /// the returned `t`.
     pub weight: Vec<f64>,
@@ -85,19 +97,23 @@ impl Errors {
     pub fn lists(&self) -> [(&'static str, &[f64]); KINDS] {
         [
             ("cdf", &self.cdf),
-            ("cdf_ulp", &self.cdf_ulp),
+            ("cdf_resolved", &self.cdf_resolved),
             ("cdf_floor", &self.cdf_floor),
             ("cdf_beyond_t", &self.cdf_beyond_t),
+            ("offset", &self.offset),
             ("pdf", &self.pdf),
             ("r", &self.r),
             ("integrand", &self.integrand),
+            ("integrand_near", &self.integrand_near),
             ("weight", &self.weight),
         ]
     }
 
     fn lists_mut(&mut self) -> [&mut Vec<f64>; KINDS] {
-        let Self { cdf, cdf_ulp, cdf_floor, cdf_beyond_t, pdf, r, integrand, weight, .. } = self;
-        [cdf, cdf_ulp, cdf_floor, cdf_beyond_t, pdf, r, integrand, weight]
+        let Self {
+            cdf, cdf_resolved, cdf_floor, cdf_beyond_t, offset, pdf, r, integrand, integrand_near, weight, ..
+        } = self;
+        [cdf, cdf_resolved, cdf_floor, cdf_beyond_t, offset, pdf, r, integrand, integrand_near, weight]
     }
 
     fn add(&mut self, sampler: &Sampler, cases: &[Case]) {
@@ -202,26 +218,47 @@ impl Row {
             misjudged: sampled != lit.is_some() && !scene.as_ref().is_some_and(beyond_f32) && !case.is_extreme(),
             errors: [None; KINDS],
         };
-        let (Some(scene), Some(lit), true, false) = (scene, lit, sampled, case.is_extreme()) else { return row };
-        if beyond_f64(&scene, lit) {
-            return row;
-        }
+        let (Some(scene), Some(_), true, false) = (scene, lit, sampled, case.is_extreme()) else { return row };
         let (t_min, t_max) = scene.interval();
         row.out_of_range |= !(t_min..=t_max).contains(&f64::from(t));
         let u = f64::from(case.u);
         let cdf = (scene.cdf(strategy, t.into()) - u).abs();
-        let [low, high] = [t.next_down(), t.next_up()].map(|t| scene.cdf(strategy, t.into()));
+        let rounding = Rounding::new(&scene, t);
+        let cdfs = rounding.ends.map(|t| scene.cdf(strategy, t));
+        let integrand = integrand_error(&scene, t.into(), integrand.into());
+        let near = scene.h() < NEAREST * rounding.scale;
         row.errors = [
             Some(cdf),
-            Some(cdf / (0.5 * (high - low)).max(HALF_ULP_OF_1)),
+            (cdfs[1] - cdfs[0] <= 2.0 * RESOLVED).then_some(cdf),
             weigh.then(|| cdf_floor(&scene, strategy, u)),
-            Some(beyond([low, high], u)),
-            pdf_error(&scene, strategy, lit, t.into(), pdf_at_t.into()),
-            Some(r_error(&scene, t, r.into())),
-            integrand_error(&scene, t.into(), integrand.into()),
-            weigh.then(|| weight_error(&scene, strategy, u, t.into(), weight.into())).flatten(),
+            Some(beyond(cdfs, u)),
+            offset_error(&scene, strategy, &rounding, u),
+            pdf_error(&scene, strategy, t.into(), pdf_at_t.into()),
+            Some(r_error(&scene, strategy, &rounding, u, r.into())),
+            integrand.filter(|_| !near),
+            integrand.filter(|_| near),
+            weigh.then(|| weight_error(&scene, strategy, &rounding, u, weight.into())).flatten(),
         ];
         row
+    }
+}
+
+/// All that rounds to a `t`.
+struct Rounding {
+    /// Its ends, and a little more for the rounding of the geometry to f64.
+    ends: [f64; 2],
+    /// The largest distance that the point has from something.
+    scale: f64,
+}
+
+impl Rounding {
+    fn new(scene: &Scene, t: f32) -> Self {
+        let scale = f64::from(t).max(scene.r(t.into())).max(scene.t_h().abs());
+        // Where N = 0 the ray meets the emitter's plane, at an angle with the sine beta.
+        let clipped = scene.lit().is_some_and(|lit| lit != scene.interval());
+        let moved = GEOMETRY * scale / if clipped { scene.beta().abs() } else { 1.0 };
+        let [low, high] = [t.next_down(), t.next_up()].map(|next| 0.5 * (f64::from(t) + f64::from(next)));
+        Self { ends: [low - moved, high + moved], scale }
     }
 }
 
@@ -231,21 +268,39 @@ fn cdf_floor(scene: &Scene, strategy: Strategy, u: f64) -> f64 {
     (scene.cdf(strategy, t.into()) - u).abs()
 }
 
-fn pdf_error(scene: &Scene, strategy: Strategy, (t_a, t_b): (f64, f64), t: f64, pdf: f64) -> Option<f64> {
-    let exact = scene.pdf(strategy, t);
-    if strategy == Strategy::Transmittance {
-        return Some((pdf - exact).abs() / exact);
-    }
-    // Outside for rounding alone.
-    let mean = (t_a..=t_b).contains(&t).then(|| scene.pdf(Strategy::EquiAngular, t))?;
-    Some((pdf - exact).abs() / exact.max(VANISHING * mean))
+fn offset_error(scene: &Scene, strategy: Strategy, rounding: &Rounding, u: f64) -> Option<f64> {
+    let comparable = match strategy {
+        Strategy::EquiAngular => true,
+        Strategy::PointNormal => (OFF_THE_MASS..=1.0 - OFF_THE_MASS).contains(&u),
+        _ => false,
+    };
+    let (t_a, t_b) = scene.lit().filter(|_| comparable)?;
+    let exact = scene.invert(strategy, u);
+    let offset = (exact - t_a).min(t_b - exact);
+    Some(beyond(rounding.ends, exact) / ulp(offset))
 }
 
-fn r_error(scene: &Scene, t: f32, r: f64) -> f64 {
-    let t_prime = (f64::from(t) - scene.t_h()).abs();
-    let ulp_of_t = f64::from(t.next_up()) - f64::from(t);
-    let [nearest, farthest] = [(t_prime - ulp_of_t).max(0.0), t_prime + ulp_of_t].map(|x| scene.h().hypot(x));
-    beyond([nearest, farthest], r) / ulp(scene.r(t.into()))
+fn pdf_error(scene: &Scene, strategy: Strategy, t: f64, pdf: f64) -> Option<f64> {
+    let (t_a, t_b) = if strategy == Strategy::Transmittance { scene.interval() } else { scene.lit()? };
+    let exact = scene.pdf(strategy, t);
+    let size = exact.max(VANISHING / (t_b - t_a)).max(f32::MIN_POSITIVE.into());
+    // Outside for rounding alone.
+    (t_a..=t_b).contains(&t).then(|| (pdf - exact).abs() / size)
+}
+
+/// As for the weight: where `t` cannot tell, `r` is that of a variate near `u`.
+fn r_error(scene: &Scene, strategy: Strategy, rounding: &Rounding, u: f64, r: f64) -> f64 {
+    let outside = |ends: [f64; 2]| {
+        let [low, high] = ends.map(|t| t - scene.t_h());
+        // The middle one of these and 0 is the nearest.
+        let nearest = low.max(0.0).max(-high);
+        beyond([nearest, low.abs().max(high.abs())].map(|t_prime| scene.h().hypot(t_prime)), r) / ulp(r)
+    };
+    let of_t = outside(rounding.ends);
+    if of_t <= 4.0 {
+        return of_t;
+    }
+    outside([u - VARIATE, u + VARIATE].map(|u| scene.invert(strategy, u))).min(of_t)
 }
 
 fn integrand_error(scene: &Scene, t: f64, integrand: f64) -> Option<f64> {
@@ -255,18 +310,20 @@ fn integrand_error(scene: &Scene, t: f64, integrand: f64) -> Option<f64> {
     comparable.then(|| (integrand - exact).abs() / ulp(size))
 }
 
-/// A weight is right if it is that of the returned `t`, or where `t` cannot tell that of a variate near `u`.
-fn weight_error(scene: &Scene, strategy: Strategy, u: f64, t: f64, weight: f64) -> Option<f64> {
-    let at = |t: f64| (t, scene.integrand(t) / scene.pdf(strategy, t));
-    let exact = |u: f64| at(scene.invert(strategy, u));
-    let of_t = (weight - at(t).1).abs() / weight;
-    let off_the_ends = u.clamp(OFF_THE_ENDS, 1.0 - OFF_THE_ENDS);
-    let (t, w) = exact(off_the_ends);
-    let comparable = depth(scene, t) < DEPTH && w > TINY && scene.cosine(t) > VANISHING;
+/// As for `r`: the weight is that of what rounds to `t`, or of a variate near `u`.
+fn weight_error(scene: &Scene, strategy: Strategy, rounding: &Rounding, u: f64, weight: f64) -> Option<f64> {
+    let at = |t: f64| scene.integrand(t) / scene.pdf(strategy, t);
     // At an end where the density vanishes the weight is a limit, and no number.
-    let around = [(u - VARIATE).max(0.0), u, off_the_ends, (u + VARIATE).min(1.0)].map(|u| exact(u).1);
-    let [low, high] = [around.into_iter().fold(w, f64::min), around.into_iter().fold(w, f64::max)];
-    comparable.then(|| (beyond([low, high], weight) / w).min(of_t))
+    let inverse = |u: f64| scene.invert(strategy, u.clamp(OFF_THE_ENDS, 1.0 - OFF_THE_ENDS));
+    let t = inverse(u);
+    let exact = at(t);
+    let comparable = depth(scene, t) < DEPTH && exact > TINY && scene.cosine(t) > VANISHING;
+    let outside = |ends: [f64; 2]| {
+        let [low, high] = ends.map(at);
+        beyond([exact.min(low).min(high), exact.max(low).max(high)], weight)
+    };
+    let of_u = outside([u - VARIATE, u + VARIATE].map(inverse));
+    comparable.then(|| outside(rounding.ends).min(of_u) / exact.max(weight))
 }
 
 fn depth(scene: &Scene, t: f64) -> f64 {
@@ -285,12 +342,6 @@ fn beyond_f32(scene: &Scene) -> bool {
         let light = angle * (scene.cosine(a) + scene.cosine(b));
         b - a < 1.01e-18 || angle < 1.01e-30 || b - a < 1.01e-36 * scene.r(a) * scene.r(b) || light < 1.01e-25
     })
-}
-
-/// Whether N leaves so little of the interval that its length is uncertain in f64, the oracle's too.
-fn beyond_f64(scene: &Scene, (t_a, t_b): (f64, f64)) -> bool {
-    let clipped = (t_a, t_b) != scene.interval();
-    clipped && t_b - t_a < 1e-8 * scene.t_h().abs().max(scene.r(t_a))
 }
 
 /// The distance from `x > 0` to the next larger f32.

@@ -28,7 +28,7 @@ pub enum Family {
     Phase,
     /// `mu_t` from 0 to 1e4 per m, and media that are none.
     Medium,
-    /// Directions that are not quite units, signed zeros, origins far out, fields that are not numbers.
+    /// Directions and normals that are not quite units, signed zeros, origins far out, fields that are not numbers.
     Ray,
     /// Every field an arbitrary bit pattern.
     RandomBits,
@@ -283,7 +283,10 @@ impl Case {
     fn ray(draw: &mut Draw) -> Self {
         let mut case = Self::any(draw);
         match draw.below(5) {
-            0 => case.direction *= draw.between(0.9991, 1.0009),
+            0 => {
+                case.direction *= draw.between(0.9991, 1.0009);
+                case.normal *= draw.between(0.9991, 1.0009);
+            }
             1 => {
                 let sign = draw.pick(&[1.0, -1.0]);
                 case.direction = Vec3::AXES[draw.below(3) as usize] * Vec3::new(sign, -sign, sign);
