@@ -53,11 +53,11 @@ impl Stream {
             let read = read.map(|column| &column[start..start + length]);
             match self {
                 Self::Read => {
-                    black_box(read.map(sum));
+                    black_box(sum(read));
                 }
                 Self::Write => {
-                    t.fill(black_box(1.0));
-                    pdf.fill(black_box(1.0));
+                    let value = black_box(1.0);
+                    t.iter_mut().zip(pdf).for_each(|(t, pdf)| (*t, *pdf) = (value, value));
                 }
                 Self::Both => both(read, t, pdf),
             }
@@ -65,16 +65,16 @@ impl Stream {
     }
 }
 
-/// The sum in as many parts as hide the latency of an addition.
-fn sum(column: &[f32]) -> f32 {
-    let mut parts = [0.0; 32];
-    let (chunks, rest) = column.as_chunks::<32>();
-    for chunk in chunks {
-        for (part, x) in parts.iter_mut().zip(chunk) {
-            *part += x;
+/// The sum of all columns but for less than 16 rays, in as many parts: they hide the latency of an addition.
+fn sum(columns: [&[f32]; READ]) -> f32 {
+    let columns = columns.map(|column| column.as_chunks::<16>().0);
+    let mut parts = [0.0; 16];
+    for row in 0..columns[0].len() {
+        for column in columns {
+            parts.iter_mut().zip(&column[row]).for_each(|(part, x)| *part += x);
         }
     }
-    parts.iter().chain(rest).sum()
+    parts.iter().sum()
 }
 
 fn both([a, b, c, d, e, f, g, h, u]: [&[f32]; READ], t: &mut [f32], pdf: &mut [f32]) {
