@@ -39,6 +39,8 @@
 //! The single-scattered radiance of a ray, per unit of the emitter's intensity, is the integral of the integrand
 //! `mu_s T rho N / r^2` over `t`, and the mean of the weights.
 //!
+//! Which strategy to take: see [`Strategy`].
+//!
 //! # Equations of the paper
 //!
 //! The supplement of "Practical product sampling for single scattering in media" (Villeneuve, Gruson, Georgiev,
