@@ -78,7 +78,8 @@ pub struct Counts {
     /// Rays with a sample.
     pub sampled: usize,
     /// Valid rays without one: `t_min = t_max`, or no point of the ray is lit, or less than f32 can say anything about:
-    /// an interval shorter than 1e-18 m, or than 1e-36 of `r^2`, or that subtends 1e-30 rad, or 1e-25 of the light.
+    /// an interval shorter than 1e-18 m, or than 1e-36 of `r^2`, or that subtends 1e-30 rad, or for densities with the
+    /// cosine 1e-25 of the light.
     pub empty: usize,
     /// Rays with a value that is NaN or out of range.
     pub invalid: usize,
@@ -104,8 +105,6 @@ pub(crate) struct Inputs<'a> {
     pub(crate) rays: Rays<'a>,
     pub(crate) emitters: Emitters<'a>,
     pub(crate) media: Media<'a>,
-    /// How many rays; columns may be longer.
-    length: usize,
     pub(crate) given: &'a [f32],
     /// How many of them each ray has.
     pub(crate) per_ray: usize,
@@ -114,8 +113,7 @@ pub(crate) struct Inputs<'a> {
 impl<'a> Inputs<'a> {
     /// The inputs, if every column has the same length; nothing is given yet.
     pub(crate) fn new(rays: &Rays<'a>, emitters: &Emitters<'a>, media: &Media<'a>) -> Result<Self, Error> {
-        let (length, given) = (rays.origin[0].len(), &[]);
-        let inputs = Self { rays: *rays, emitters: *emitters, media: *media, length, given, per_ray: 0 };
+        let inputs = Self { rays: *rays, emitters: *emitters, media: *media, given: &[], per_ray: 0 };
         const O: [&str; 3] = ["rays.origin[0]", "rays.origin[1]", "rays.origin[2]"];
         const D: [&str; 3] = ["rays.direction[0]", "rays.direction[1]", "rays.direction[2]"];
         const P: [&str; 3] = ["emitters.position[0]", "emitters.position[1]", "emitters.position[2]"];
@@ -143,7 +141,7 @@ impl<'a> Inputs<'a> {
     /// One ray.
     pub(crate) fn one(rays: Rays<'a>, emitter: Emitter, medium: Medium, given: &'a [f32]) -> Self {
         let (emitters, media) = (Emitters::One(emitter), Media::One(medium));
-        Self { rays, emitters, media, length: 1, given, per_ray: 1 }
+        Self { rays, emitters, media, given, per_ray: 1 }
     }
 
     /// The same with `given`, if its length is that of the batch or a multiple; `name` is what it is called.
@@ -170,13 +168,13 @@ impl<'a> Inputs<'a> {
     }
 
     pub(crate) fn len(&self) -> usize {
-        self.length
+        self.rays.origin[0].len()
     }
 
     /// The rays of `range` alone.
     pub(crate) fn slice(&self, range: Range<usize>) -> Self {
         let given = &self.given[range.start * self.per_ray..range.end * self.per_ray];
-        Self { length: range.len(), given, ..self.with_columns(|column| &column[range.clone()]) }
+        Self { given, ..self.with_columns(|column| &column[range.clone()]) }
     }
 
     /// The same with other columns of rays, emitters and media.
@@ -201,7 +199,6 @@ impl<'a> Inputs<'a> {
                 Media::One(medium) => Media::One(medium),
                 Media::Each { mu_a, mu_s, g } => Media::Each { mu_a: other(mu_a), mu_s: other(mu_s), g: other(g) },
             },
-            length: self.length,
             given: self.given,
             per_ray: self.per_ray,
         }
@@ -210,7 +207,7 @@ impl<'a> Inputs<'a> {
     /// The rays in lane groups.
     #[inline(always)]
     pub(crate) fn ray_groups<I: Isa>(&self) -> RayGroups<'a, I> {
-        let count = self.length.div_ceil(I::V::N);
+        let count = self.len() / I::V::N;
         let [ox, oy, oz] = self.rays.origin;
         let [dx, dy, dz] = self.rays.direction;
         let Rays { t_min, t_max, .. } = self.rays;
@@ -262,19 +259,22 @@ fn load<I: Isa>(isa: I, [x, y, z]: &[&[I::Group]; 3], index: usize) -> [I::V; 3]
     [isa.load(&x[index]), isa.load(&y[index]), isa.load(&z[index])]
 }
 
-/// A column of as many values as the lanes of every backend need, or a multiple.
+/// Of rays, emitters and media, at most.
+const COLUMNS: usize = 8 + 6 + 3;
+
+/// As many values as the lanes of every backend need, or a multiple.
 pub(crate) type Pad = [f32; MOST_LANES];
 
 /// Columns for values that are too few to fill the lanes.
 pub(crate) struct Padded {
     given: Pad,
     /// Of rays, emitters and media.
-    columns: [Pad; 8 + 6 + 3],
+    columns: [Pad; COLUMNS],
 }
 
 impl Padded {
     pub(crate) fn new() -> Self {
-        Self { given: [0.0; MOST_LANES], columns: [[f32::NAN; MOST_LANES]; 17] }
+        Self { given: [0.0; MOST_LANES], columns: [[f32::NAN; MOST_LANES]; COLUMNS] }
     }
 
     /// Rays with one value each: those of `inputs` repeated as often as they have some of the values of `range`, then
@@ -292,7 +292,7 @@ impl Padded {
         if let Some(given) = inputs.given.get(range) {
             self.given[..given.len()].copy_from_slice(given);
         }
-        Inputs { length: MOST_LANES, given: &self.given, per_ray: 1, ..columns }
+        Inputs { given: &self.given, per_ray: 1, ..columns }
     }
 }
 

@@ -89,7 +89,7 @@ pub(crate) struct Geometry<I: Isa> {
     /// Ends of the ray itself \[m\].
     pub(crate) t_min: I::V,
     pub(crate) t_max: I::V,
-    /// Of `h^2`: it, or the least that is resolved.
+    /// `h^2`, unless below that of `least_h`.
     foot_squared: I::Double,
     least_h: I::V,
     t_h: I::Double,

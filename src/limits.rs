@@ -48,6 +48,9 @@ impl Sampler {
         let inputs = Inputs::new(rays, emitters, media)?.with(u, "u")?;
         inputs.check_given("samples.t", samples.t)?;
         inputs.check_given("samples.pdf", samples.pdf)?;
+        if inputs.len() == 0 {
+            return Ok(Operations::default());
+        }
         let out = Samples { t: samples.t, pdf: samples.pdf, weight: None, r: None };
         Ok(Counting::count(|isa| road::Sample::run(isa, self.strategy(), &inputs, out)))
     }
@@ -86,10 +89,7 @@ impl<const N: usize> Kernel for Chains<N> {
 
     #[inline(always)]
     fn run<I: Isa>(self, isa: I) -> usize {
-        let [m, a, one] = [0.5, 0.75, 1.0].map(
-            #[inline(always)]
-            |x| isa.splat(black_box(x)),
-        );
+        let (m, a, one) = (isa.splat(black_box(0.5)), isa.splat(black_box(0.75)), isa.splat(black_box(1.0)));
         let mut x = [isa.splat(black_box(1.25)); N];
         match self.limit {
             Limit::MultiplyAdd => {

@@ -1,28 +1,34 @@
 //! All backends with a fused multiply-add give the same bits, whatever their width: on generic rays and on every family
 //! of hard ones.
 
-use airlight::{Backend, Sampler, Samples, Strategy};
+use airlight::{Backend, Counts, Sampler, Samples, Strategy};
 use airlight_tools::families::{Case, Columns, Family};
 
 /// Per family; the eleven make 2^20 and more. Fewer on an emulated CPU, by the environment variable `AIRLIGHT_RAYS`.
-const RAYS: u64 = 96_000;
+const RAYS: u64 = 96_011;
 const SEED: u64 = 301;
 
-/// All that can be asked of a sampler, as bits.
-fn bits(sampler: &Sampler, columns: &Columns) -> Vec<(&'static str, Vec<u32>)> {
+/// All that can be asked of a sampler, as bits and counts.
+fn bits(sampler: &Sampler, columns: &Columns) -> (Vec<(&'static str, Vec<u32>)>, [Counts; 3]) {
     let (rays, emitters, media) = (columns.rays(), columns.emitters(), columns.media());
     let mut out = [(); 7].map(|()| vec![0.0f32; columns.u.len()]);
     let [t, pdf, weight, r, pdf_at_t, integrand, radiance] = &mut out;
     const EQUAL: &str = "all columns have one length";
     let mut samples = Samples { t, pdf, weight: Some(weight), r: Some(r) };
-    sampler.sample(&rays, &emitters, &media, &columns.u, &mut samples).expect(EQUAL);
-    sampler.pdf(&rays, &emitters, &media, t, pdf_at_t).expect(EQUAL);
+    let sampled = sampler.sample(&rays, &emitters, &media, &columns.u, &mut samples).expect(EQUAL);
+    let at_t = sampler.pdf(&rays, &emitters, &media, t, pdf_at_t).expect(EQUAL);
     sampler.evaluate(&rays, &emitters, &media, t, integrand).expect(EQUAL);
     if sampler.strategy().has_radiance() {
         sampler.radiance(&rays, &emitters, &media, radiance).expect(EQUAL);
     }
-    let names = ["t", "pdf", "weight", "r", "pdf at t", "integrand", "radiance"];
-    names.into_iter().zip(out.map(|column| column.into_iter().map(f32::to_bits).collect())).collect()
+    let three: Vec<f32> = columns.u.iter().flat_map(|u| [0.25 * u, 0.5 * u, *u]).collect();
+    let [mut t_of_three, mut pdf_of_three] = [(); 2].map(|()| vec![0.0f32; three.len()]);
+    let mut samples = Samples { t: &mut t_of_three, pdf: &mut pdf_of_three, weight: None, r: None };
+    let three_sampled = sampler.sample(&rays, &emitters, &media, &three, &mut samples).expect(EQUAL);
+    let names = ["t", "pdf", "weight", "r", "pdf at t", "integrand", "radiance", "t of three", "pdf of three"];
+    let columns = out.into_iter().chain([t_of_three, pdf_of_three]);
+    let bits = columns.map(|column| column.into_iter().map(f32::to_bits).collect());
+    (names.into_iter().zip(bits).collect(), [sampled, at_t, three_sampled])
 }
 
 #[test]
@@ -37,17 +43,16 @@ fn fused_backends_give_the_same_bits() {
         let cases: Vec<Case> = (0..rays).map(|i| family.case(SEED, i)).collect();
         let columns = Columns::new(&cases);
         for &strategy in Strategy::ALL {
-            let expected = bits(&Sampler::new(strategy).with_backend(*first), &columns);
+            let (expected, counts) = bits(&Sampler::new(strategy).with_backend(*first), &columns);
             for other in others {
-                let found = bits(&Sampler::new(strategy).with_backend(*other), &columns);
+                let (found, their_counts) = bits(&Sampler::new(strategy).with_backend(*other), &columns);
+                assert_eq!(counts, their_counts, "{strategy}, {family:?}: {first:?} and {other:?}");
                 for ((name, expected), (_, found)) in expected.iter().zip(&found) {
                     let differs = (0..expected.len()).find(|&i| expected[i] != found[i]);
                     if let Some(i) = differs {
                         let [a, b] = [expected[i], found[i]].map(f32::from_bits);
-                        panic!(
-                            "{strategy}, {family:?}: {name} is {a:e} on {first:?} and {b:e} on {other:?}: {:?}",
-                            cases[i]
-                        );
+                        let case = cases[i * cases.len() / expected.len()];
+                        panic!("{strategy}, {family:?}: {name} is {a:e} on {first:?} and {b:e} on {other:?}: {case:?}");
                     }
                 }
             }

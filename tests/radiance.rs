@@ -37,6 +37,23 @@ fn the_estimate_is_near_the_radiance() {
 }
 
 #[test]
+fn any_number_of_rays() {
+    let cases: Vec<Case> = (0..71).map(|i| Family::Generic.case(8, i)).collect();
+    let sampler = Sampler::new(Strategy::Product5);
+    let estimates = |cases: &[Case]| {
+        let columns = Columns::new(cases);
+        let mut estimate = vec![f32::NAN; cases.len()];
+        let counts = sampler.radiance(&columns.rays(), &columns.emitters(), &columns.media(), &mut estimate).unwrap();
+        assert_eq!(counts.sampled + counts.empty + counts.invalid, cases.len());
+        estimate
+    };
+    let all = estimates(&cases);
+    for n in 0..cases.len() {
+        assert_eq!(estimates(&cases[..n]), all[..n], "{n} rays");
+    }
+}
+
+#[test]
 fn other_strategies_have_none() {
     let columns = Columns::new(&[]);
     for &strategy in Strategy::ALL {

@@ -9,8 +9,8 @@ use scenes::Random;
 /// Not a multiple of any lane group, and more than a chunk.
 const RAYS: usize = 4099;
 
-fn columns() -> Columns {
-    let cases: Vec<Case> = (0..RAYS).map(|i| Family::ALL[i % 10].case(6, i as u64)).collect();
+fn columns(rays: usize) -> Columns {
+    let cases: Vec<Case> = (0..rays).map(|i| Family::ALL[i % Family::ALL.len()].case(6, i as u64)).collect();
     Columns::new(&cases)
 }
 
@@ -20,11 +20,12 @@ fn sum(all: impl Iterator<Item = Counts>) -> Counts {
 
 #[test]
 fn they_are_those_of_one_each() {
-    let columns = columns();
-    let (rays, emitters, media) = (columns.rays(), columns.emitters(), columns.media());
-    for per_ray in [2, 3, 8] {
+    // Many rays, and so few that they do not fill the lanes but with their variates.
+    for (n, per_ray) in [(RAYS, 2), (RAYS, 3), (RAYS, 8), (1, 33), (1, 5000), (5, 33), (31, 100), (37, 7)] {
+        let columns = columns(n);
+        let (rays, emitters, media) = (columns.rays(), columns.emitters(), columns.media());
         let mut random = Random::new(7);
-        let u: Vec<f32> = (0..RAYS * per_ray).map(|_| random.uniform()).collect();
+        let u: Vec<f32> = (0..n * per_ray).map(|_| random.uniform()).collect();
         for &strategy in Strategy::ALL {
             let sampler = Sampler::new(strategy);
             let [mut t, mut pdf, mut weight, mut r, mut pdf_at, mut f] = [(); 6].map(|()| vec![f32::NAN; u.len()]);
@@ -36,7 +37,7 @@ fn they_are_those_of_one_each() {
             let one_each = sum((0..per_ray).map(|index| {
                 let turn = |column: &[f32]| column.iter().skip(index).step_by(per_ray).copied().collect::<Vec<_>>();
                 let [mut t_1, mut pdf_1, mut weight_1, mut r_1, mut pdf_at_1, mut f_1] =
-                    [(); 6].map(|()| vec![f32::NAN; RAYS]);
+                    [(); 6].map(|()| vec![f32::NAN; n]);
                 let mut samples =
                     Samples { t: &mut t_1, pdf: &mut pdf_1, weight: Some(&mut weight_1), r: Some(&mut r_1) };
                 let counts = sampler.sample(&rays, &emitters, &media, &turn(&u), &mut samples).unwrap();
@@ -46,18 +47,18 @@ fn they_are_those_of_one_each() {
                     [(&t, &t_1), (&pdf, &pdf_1), (&weight, &weight_1), (&r, &r_1), (&pdf_at, &pdf_at_1), (&f, &f_1)]
                 {
                     let bits = |x: &[f32]| x.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
-                    assert_eq!(bits(&turn(several)), bits(one), "{strategy}, {index} of {per_ray}, seed 7");
+                    assert_eq!(bits(&turn(several)), bits(one), "{strategy}, {n} rays, {index} of {per_ray}, seed 7");
                 }
                 counts
             }));
-            assert_eq!(counts, one_each, "{strategy}");
+            assert_eq!(counts, one_each, "{strategy}, {n} rays with {per_ray}");
         }
     }
 }
 
 #[test]
 fn no_part_of_a_ray_is_sampled() {
-    let columns = columns();
+    let columns = columns(RAYS);
     let (rays, emitters, media) = (columns.rays(), columns.emitters(), columns.media());
     for length in [0, RAYS - 1, RAYS + 1, 2 * RAYS - 1] {
         let u = vec![0.5; length];

@@ -7,7 +7,7 @@ use super::{Group, OfDensity, Task, by_strategy, count, for_each_group, for_each
 use crate::Strategy;
 use crate::batch::{Counts, Inputs, Outputs};
 use crate::density::Density;
-use crate::simd::{Isa, Lanes};
+use crate::simd::{Isa, Lanes, none};
 use core::hint::black_box;
 
 /// How far a ray goes.
@@ -57,13 +57,15 @@ impl OfDensity for UpTo {
             |group| {
                 // Values, not references, go into the black box: the stages beyond keep theirs in registers.
                 if stage == Stage::Geometry {
+                    let (valid, lit) = (group.valid(), group.geometry.lit);
                     black_box((group.geometry, group.medium));
-                    return Counts::default();
+                    return count::<I>(valid, lit, none(isa));
                 }
                 let density = D::new(isa, &group.geometry, &group.medium);
                 if stage == Stage::SetUp {
+                    let (valid, lit) = (group.valid(), D::lit(isa, &group.geometry));
                     black_box((group.geometry, density));
-                    return Counts::default();
+                    return count::<I>(valid, lit, none(isa));
                 }
                 let lit = D::lit(isa, &group.geometry);
                 let Group { geometry, index, .. } = &group;

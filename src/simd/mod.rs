@@ -121,7 +121,7 @@ enum Kind {
 impl Backend {
     /// Every backend that this CPU can run, the fastest first.
     ///
-    /// With the feature `measure` also `avx2-single`, where lane groups do not come in pairs, and `scalar`, one lane.
+    /// With the feature `measure`, after these, also `avx2-single`, where lane groups do not come in pairs, and `scalar`, one lane.
     pub fn available() -> impl Iterator<Item = Self> {
         [
             #[cfg(target_arch = "x86_64")]
@@ -161,11 +161,12 @@ impl Backend {
         }
     }
 
-    /// Whether a multiply-add rounds once. All backends of which this is true give the same bits.
+    /// Whether it gives the bits of the x86-64 sets with fused multiply-add: all backends of which this is true give the
+    /// same.
     #[must_use]
     pub fn is_fused(self) -> bool {
         match self.0 {
-            Kind::Portable => cfg!(target_feature = "fma"),
+            Kind::Portable => cfg!(all(target_arch = "x86_64", target_feature = "fma")),
             #[cfg(any(target_arch = "x86_64", feature = "measure"))]
             _ => true,
         }

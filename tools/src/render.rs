@@ -93,7 +93,7 @@ pub(crate) fn run(args: &Args) -> Result<()> {
 
 /// Renders with one strategy.
 fn single(args: &Args, scene: &Scene) -> Result<(Figures, Picture)> {
-    let settings = args.settings(args.strategy.first().copied().unwrap_or(Strategy::Product5));
+    let settings = args.settings(args.strategy.first().copied().unwrap_or_default());
     let progress = progress::bar(exposure::STEPS)?;
     progress.set_message(settings.strategy.name());
     let mut exposure = Exposure::new(scene, args.size, &settings, args.budget());

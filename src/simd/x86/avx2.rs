@@ -6,7 +6,7 @@ use crate::simd::{Double, Isa, Kernel, Lanes, Number};
 use core::arch::x86_64::*;
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
-/// Proof of AVX2 and FMA.
+/// Proof of AVX2, FMA and POPCNT.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::simd) struct Avx2(());
 token!(Avx2: "avx2,fma,popcnt", detected "avx2" "fma" "popcnt");

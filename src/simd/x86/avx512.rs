@@ -6,7 +6,8 @@ use crate::simd::{Double, Isa, Kernel, Lanes, Number};
 use core::arch::x86_64::*;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-/// Proof of AVX-512 with its extensions DQ and VL, and of AVX2 and FMA.
+/// Proof of AVX-512 with its extension DQ, of VL for what the compiler makes of narrower values, and of AVX2, FMA and
+/// POPCNT.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::simd) struct Avx512(());
 token!(Avx512: "avx512f,avx512dq,avx512vl,avx2,fma,popcnt", detected "avx512f" "avx512dq" "avx512vl" "avx2" "fma" "popcnt");
