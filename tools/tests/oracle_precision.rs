@@ -25,7 +25,7 @@ const BOUND: f64 = 1e-12;
 const TINY: f64 = 1e-290;
 
 /// What is compared, and where its values are among those of a scene.
-const QUANTITIES: [(&str, Range<usize>); 8] = [
+const QUANTITIES: [(&str, Range<usize>); 10] = [
     ("h", 0..1),
     ("t_h", 1..2),
     ("t_a", 2..3),
@@ -33,9 +33,11 @@ const QUANTITIES: [(&str, Range<usize>); 8] = [
     ("integrand", 4..5),
     ("radiance", 5..6),
     ("pdf", 6..11),
-    ("cdf", CDF..16),
+    ("product", 11..CDF),
+    ("cdf", CDF..20),
+    ("product", 20..24),
 ];
-const CDF: usize = 11;
+const CDF: usize = 15;
 /// In the first ones no digit may be lost, whatever a few ulp of `t_h` do to the others.
 const WITHOUT_SLACK: usize = 2;
 
@@ -69,15 +71,6 @@ fn lit_cases(family: Family) -> Vec<(u64, Case)> {
     cases.filter(|(_, case)| case.scene().is_ok_and(|scene| scene.lit().is_some())).take(SCENES).collect()
 }
 
-/// The paper's densities.
-const STRATEGIES: [Strategy; 5] = [
-    Strategy::Transmittance,
-    Strategy::EquiAngular,
-    Strategy::PointNormal,
-    Strategy::TaylorTransmittance,
-    Strategy::TaylorPhase,
-];
-
 /// One scene at one point inside.
 struct Comparison {
     oracle: oracle::Scene,
@@ -91,8 +84,8 @@ impl Comparison {
         let oracle = case.scene().expect("a valid case");
         let u = if 0.0 < case.u && case.u < 1.0 { case.u.into() } else { 0.5 };
         // A point of the lit part: Strategy::Transmittance alone may sample others.
-        let angular = &STRATEGIES[1..];
-        let t = oracle.invert(angular[i % angular.len()], u);
+        let lit = &Strategy::ALL[1..];
+        let t = oracle.invert(lit[i % lit.len()], u);
         Self { reference: Scene::new(case), oracle, t, integrated: i.is_multiple_of(INTEGRATED) }
     }
 
@@ -113,8 +106,8 @@ impl Comparison {
         let radiance = if self.integrated { scene.radiance() } else { 0.0 };
         [scene.h(), scene.t_h(), t_a, t_b, scene.integrand(self.t), radiance]
             .into_iter()
-            .chain(STRATEGIES.map(|strategy| scene.pdf(strategy, self.t)))
-            .chain(STRATEGIES.map(|strategy| scene.cdf(strategy, self.t)))
+            .chain(Strategy::ALL.iter().map(|&strategy| scene.pdf(strategy, self.t)))
+            .chain(Strategy::ALL.iter().map(|&strategy| scene.cdf(strategy, self.t)))
             .collect()
     }
 
