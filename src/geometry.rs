@@ -245,12 +245,15 @@ impl<I: Isa> Geometry<I> {
         let c = |x| isa.splat(x);
         let toward = |a: I::V, b: I::V| I::V::select(from_a, a, -b);
         let te = toward(self.a.t_prime, self.b.t_prime);
-        let re = I::V::select(from_a, self.a.r, self.b.r);
+        let re_squared = te.mul_add(te, self.h * self.h);
         let two_tau = tau + tau;
         let one_minus = (-tau).mul_add(tau, c(1.0));
         let scale = c(1.0) / self.h.mul_add(one_minus, -(two_tau * te));
-        let offset = ((two_tau * re) * (re * scale)).min(self.length);
-        let t_prime = (self.h * scale) * te.mul_add(one_minus, two_tau * self.h);
+        let offset = (two_tau * (re_squared * scale)).min(self.length);
+        // Not far from the end it is known better by that.
+        let by_end = te + offset;
+        let by_angle = (self.h * scale) * te.mul_add(one_minus, two_tau * self.h);
+        let t_prime = I::V::select((offset + offset).lt(te.abs()), by_end, by_angle);
         let t_prime = toward(t_prime, t_prime).max(self.a.t_prime).min(self.b.t_prime);
 
         let rest = self.rest(isa, offset, t_prime, I::V::select(from_a, self.b.t_prime, self.a.t_prime));

@@ -55,7 +55,7 @@ impl Sampler {
     /// makes its ray invalid. Equal inputs give equal bits, wherever they stand in a batch and however many threads
     /// there are.
     ///
-    /// Beyond the rounding of `t` to f32 the CDF at `t` is within 2^-20 of `u`. `r`, to 4 ulp for 99.99 % of rays, and
+    /// Beyond the rounding of `t` to f32 the CDF at `t` is within 2^-20 of `u`. `r`, to 4 ulp (5 of a product density), and
     /// the weight, to 2e-5, are those of a distance that rounds to `t`, or of a variate so near to `u`: next to the
     /// emitter `t` resolves neither. `airlight accuracy` measures it. At u = 0 and 1 a density that vanishes there is
     /// sampled next to the end.
@@ -116,7 +116,8 @@ impl Sampler {
     ///
     /// It is the density of what [`sample`](Self::sample) returns, taken at `t` as rounded: where `t` resolves `r` the
     /// two agree within 1e-5, next to the emitter that of `sample` is the exact one. Relative error at a given `t`: below
-    /// 8 x 2^-24 for 99 % of rays (10 for [`Strategy::TaylorPhase`], 64 for the product densities), 64 (256) for 99.99 %;
+    /// 8 x 2^-24 for 99 % of rays (10 for [`Strategy::TaylorPhase`], 16 for the product densities and 48 at their ends), 64 (128, 256)
+    /// for 99.99 %;
     /// below a thousandth of `1/(t_b - t_a)`, the mean over the sampled interval, relative to that. A density below f32's
     /// range is 0.
     ///

@@ -127,10 +127,10 @@ fn scale(arc: &Arc, mu_t: f64, g: f64) -> f64 {
     (1.0 / (chosen::EXTINCTION * mu_t + 1.0 / reach)).max(1e-18)
 }
 
-/// Where the knots are.
+/// Where the knots are, rounded to f32: so the kernel has them exactly.
 fn knots(count: usize) -> Vec<Variable> {
     let chebyshev = |s: f64| 0.5 * (1.0 - (PI * s).cos());
-    let v = |s: f64| chosen::EQUAL * s + (1.0 - chosen::EQUAL) * chebyshev(s);
+    let v = |s: f64| f64::from((chosen::EQUAL * s + (1.0 - chosen::EQUAL) * chebyshev(s)) as f32);
     let mut knots: Vec<Variable> = (0..count).map(|k| Variable::new(v(k as f64 / (count - 1) as f64))).collect();
     knots[count - 1] = Variable::new(1.0);
     knots

@@ -56,6 +56,14 @@ impl Scene {
         }
     }
 
+    /// The same scene with other values of `h` and `t_h` \[m\], as the kernels have them when these are rounded: what is
+    /// lit, and `N r` along the ray, stay what they are.
+    #[must_use]
+    pub fn with_foot(&self, h: f64, t_h: f64) -> Self {
+        let normal = self.normal.map(|n| Normal { alpha_h: n.alpha_h + n.beta * (t_h - self.t_h), ..n });
+        Self { h, t_h, normal, arc: Arc::new(h, t_h, (self.t_min, self.t_max), normal), ..*self }
+    }
+
     /// The distance `h` from the emitter to the ray's line \[m\].
     #[must_use]
     pub fn h(&self) -> f64 {

@@ -223,10 +223,11 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
         let (h_c, x_c) = (g.h * inv_y_c, x_a * inv_y_c);
         let scale = one / h_c.max(x_c).max(one);
         let (h_c, x_c) = (h_c * scale, x_c * scale);
+        let (h_c, x_c, y_c_c) = (w_0 * h_c, w_0 * x_c, w_0 * scale);
         // m = n.(x - y) in units of the end where N is smaller.
         let rising = c(0.0).le(g.beta);
-        let m_end = I::V::select(rising, g.a.n * g.a.r, g.b.n * g.b.r) * inv_y_c;
-        let half_beta = c(0.5) * g.beta.abs();
+        let m_end = w_0 * I::V::select(rising, g.a.n * g.a.r, g.b.n * g.b.r) * inv_y_c;
+        let half_beta = c(0.5) * g.beta.abs() * I::V::select(rising, w_0, inv_e);
         let h_x = I::V::select(rising, h_x_a, h_x_b);
 
         let mut seen = [one; K];
@@ -235,14 +236,13 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
             let v = c(Self::SEEN[k]);
             let to_1 = c(Self::TO_1[k]);
             let rest = e + to_1;
-            let (w, s) = (w_0 * v, w_0 * rest);
             let depth = medium.mu_t * y_c * (v / rest);
             let (_, transmittance) = one_minus_exp(isa, depth);
 
-            let p = h_c * s;
-            let q = x_c.mul_add(s, scale * w);
-            let way = I::V::select(rising, w, to_1 * inv_e);
-            let m = m_end.mul_add(s * q, half_beta * way * p.mul_add(h_x, q));
+            let p = h_c * rest;
+            let q = x_c.mul_add(rest, y_c_c * v);
+            let way = I::V::select(rising, v, to_1);
+            let m = m_end.mul_add(rest * q, half_beta * way * p.mul_add(h_x, q));
             let p2 = p * p;
             let s_1 = q.mul_add(q, p2).max(c(1e-18));
             let s_2 = (a2 * q).mul_add(q, b2 * p2).max(c(1e-18));
@@ -336,10 +336,11 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
         let v = (y * ((one + self.e) * self.inv_y_c) * s).min(one);
         let rest = (to_y_b * (self.e * s) * self.inv_y_c).min(one);
         let (segment, _) = self.segment(isa, |i, _| c(Self::V[i]).le(v));
-        // Next to the end the density may vanish as 1 - v, which v alone does not tell.
-        let from_0 = (v - segment.v_0).max(c(0.0));
-        let last = c(Self::V[K - 2]).le(v);
-        let to_1 = I::V::select(last, rest, segment.width - from_0).max(c(0.0));
+        // By v or by 1 - v, whichever has the smaller error: a segment is narrow, and the density may vanish within it.
+        let near_0 = v.lt(rest);
+        let v_1 = segment.v_0 + segment.width;
+        let from_0 = I::V::select(near_0, v - segment.v_0, (one - segment.v_0) - rest).max(c(0.0));
+        let to_1 = I::V::select(near_0, v_1 - v, rest - (one - v_1)).max(c(0.0));
         let p_v = segment.f_1.mul_add(from_0, segment.f_0 * to_1) / segment.width;
         self.pdf_over_v(isa, p_v, s, x, point.r)
     }

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 /// Rays that are sampled in one call.
 const BATCH: usize = 1 << 14;
-/// Every how many rays the weight and the floor are looked at, which takes the oracle's inverse many times.
+/// Every how many rays the weight and the floors are looked at, which takes the oracle's inverse many times.
 const WEIGHED: usize = 16;
 /// What counts as vanishing: a density below this share of its mean over the interval, `1/(t_b - t_a)`, and an N below
 /// this value. There errors are relative to that share, or to that of the integrand with this N.
@@ -30,7 +30,7 @@ const DEPTH: f64 = 30.0;
 const TINY: f64 = 1e-30;
 
 /// Kinds of errors that are listed.
-const KINDS: usize = 10;
+const KINDS: usize = 12;
 
 /// The errors of one strategy on one family; the lists ascend.
 #[derive(Clone, Debug, Default)]
@@ -50,8 +50,13 @@ pub struct Errors {
     /// The distance from the nearer end of the interval against that of the exact inverse, in ulp of it and beyond one
     /// rounding of `t`; of the densities with a closed form over the angle.
     pub offset: Vec<f64>,
+    /// What exact arithmetic would have for `offset` from the geometry rounded to f32 once, on every 16th ray; `h` as for
+    /// `integrand`.
+    pub offset_floor: Vec<f64>,
     /// The pdf at the returned `t`, relative.
     pub pdf: Vec<f64>,
+    /// What exact arithmetic would have for `pdf` from the geometry rounded to f32 once, on the same rays.
+    pub pdf_floor: Vec<f64>,
     /// The distance `r` against those of all that rounds to `t`, or against those of the variates within 2^-20 of `u`,
     /// in ulp.
     pub r: Vec<f64>,
@@ -101,7 +106,9 @@ impl Errors {
             ("cdf_floor", &self.cdf_floor),
             ("cdf_beyond_t", &self.cdf_beyond_t),
             ("offset", &self.offset),
+            ("offset_floor", &self.offset_floor),
             ("pdf", &self.pdf),
+            ("pdf_floor", &self.pdf_floor),
             ("r", &self.r),
             ("integrand", &self.integrand),
             ("integrand_near", &self.integrand_near),
@@ -111,9 +118,34 @@ impl Errors {
 
     fn lists_mut(&mut self) -> [&mut Vec<f64>; KINDS] {
         let Self {
-            cdf, cdf_resolved, cdf_floor, cdf_beyond_t, offset, pdf, r, integrand, integrand_near, weight, ..
+            cdf,
+            cdf_resolved,
+            cdf_floor,
+            cdf_beyond_t,
+            offset,
+            offset_floor,
+            pdf,
+            pdf_floor,
+            r,
+            integrand,
+            integrand_near,
+            weight,
+            ..
         } = self;
-        [cdf, cdf_resolved, cdf_floor, cdf_beyond_t, offset, pdf, r, integrand, integrand_near, weight]
+        [
+            cdf,
+            cdf_resolved,
+            cdf_floor,
+            cdf_beyond_t,
+            offset,
+            offset_floor,
+            pdf,
+            pdf_floor,
+            r,
+            integrand,
+            integrand_near,
+            weight,
+        ]
     }
 
     fn add(&mut self, sampler: &Sampler, cases: &[Case]) {
@@ -232,8 +264,10 @@ impl Row {
             (cdfs[1] - cdfs[0] <= 2.0 * RESOLVED).then_some(cdf),
             weigh.then(|| cdf_floor(&scene, strategy, u)),
             Some(beyond(cdfs, u)),
-            offset_error(&scene, strategy, &rounding, u),
+            offset_error(&scene, strategy, rounding.ends, u),
+            (weigh && !near).then(|| offset_floor(&scene, strategy, u)).flatten(),
             pdf_error(&scene, strategy, t.into(), pdf_at_t.into()),
+            (weigh && !near).then(|| pdf_floor(&scene, strategy, t.into())).flatten(),
             Some(r_error(&scene, strategy, &rounding, u, r.into())),
             integrand.filter(|_| !near),
             integrand.filter(|_| near),
@@ -268,7 +302,25 @@ fn cdf_floor(scene: &Scene, strategy: Strategy, u: f64) -> f64 {
     (scene.cdf(strategy, t.into()) - u).abs()
 }
 
-fn offset_error(scene: &Scene, strategy: Strategy, rounding: &Rounding, u: f64) -> Option<f64> {
+/// The scene with what geometry in f64 hands on, rounded to f32: `h`, and the least `t'` of both ends and the point at `t`.
+fn rounded(scene: &Scene, t: f64) -> Scene {
+    let (t_a, t_b) = scene.lit().unwrap_or(scene.interval());
+    let t_prime = |t: f64| t - scene.t_h();
+    let nearest = [t_a, t_b, t].into_iter().fold(t, |a, b| if t_prime(a).abs() < t_prime(b).abs() { a } else { b });
+    scene.with_foot((scene.h() as f32).into(), nearest - f64::from(t_prime(nearest) as f32))
+}
+
+fn offset_floor(scene: &Scene, strategy: Strategy, u: f64) -> Option<f64> {
+    let t = rounded(scene, scene.invert(strategy, u)).invert(strategy, u);
+    offset_error(scene, strategy, [t, t], u)
+}
+
+fn pdf_floor(scene: &Scene, strategy: Strategy, t: f64) -> Option<f64> {
+    pdf_error(scene, strategy, t, rounded(scene, t).pdf(strategy, t))
+}
+
+/// `ends` are those of what may be meant by the distance that is compared.
+fn offset_error(scene: &Scene, strategy: Strategy, ends: [f64; 2], u: f64) -> Option<f64> {
     let comparable = match strategy {
         Strategy::EquiAngular => true,
         Strategy::PointNormal => (OFF_THE_MASS..=1.0 - OFF_THE_MASS).contains(&u),
@@ -277,7 +329,7 @@ fn offset_error(scene: &Scene, strategy: Strategy, rounding: &Rounding, u: f64) 
     let (t_a, t_b) = scene.lit().filter(|_| comparable)?;
     let exact = scene.invert(strategy, u);
     let offset = (exact - t_a).min(t_b - exact);
-    Some(beyond(rounding.ends, exact) / ulp(offset))
+    Some(beyond(ends, exact) / ulp(offset))
 }
 
 fn pdf_error(scene: &Scene, strategy: Strategy, t: f64, pdf: f64) -> Option<f64> {

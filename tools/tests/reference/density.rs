@@ -2,6 +2,7 @@
 
 use super::number::{Big, abs, big, exp};
 use super::polynomial::{Direction, Polynomial, phase_clamp, transmittance_clamp};
+use super::product::{COUNTS, Product};
 use super::scene::Scene;
 
 /// All strategies on one scene.
@@ -9,6 +10,7 @@ pub(crate) struct Densities<'a> {
     scene: &'a Scene,
     start: Direction,
     angular: Vec<Angular>,
+    product: Product<'a>,
 }
 
 /// A density over theta: `N`, or 1, times a polynomial up to a kink and a constant beyond.
@@ -42,10 +44,10 @@ impl<'a> Densities<'a> {
         for density in &mut angular {
             density.total = density.mass(&start, &end);
         }
-        Self { scene, start, angular }
+        Self { scene, start, angular, product: Product::new(scene, &[t_a.clone(), t_b.clone()]) }
     }
 
-    /// The pdf and the CDF at `t` of the paper's five strategies, in their order.
+    /// The pdf and the CDF at `t` of all strategies, in their order.
     pub(crate) fn at(&self, t: &Big) -> Vec<(Big, Big)> {
         let direction = Direction::to(&(t - &self.scene.t_h), &self.scene.h);
         let r = self.scene.r(t);
@@ -54,7 +56,8 @@ impl<'a> Densities<'a> {
             let below = density.mass(&self.start, &direction);
             (&slope * density.weight(&direction) / &density.total, below / &density.total)
         });
-        std::iter::once(self.transmittance(t)).chain(over_angle).collect()
+        let products = COUNTS.map(|count| self.product.at(t, count));
+        std::iter::once(self.transmittance(t)).chain(over_angle).chain(products).collect()
     }
 
     fn transmittance(&self, t: &Big) -> (Big, Big) {

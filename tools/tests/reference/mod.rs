@@ -3,6 +3,7 @@
 mod density;
 mod number;
 mod polynomial;
+mod product;
 mod quadrature;
 mod scene;
 
