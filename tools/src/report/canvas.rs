@@ -2,7 +2,7 @@
 
 use super::drawing::Drawing;
 use super::labels::{Area, beside};
-use super::palette::{self, AREA, Colour, GRID, INK, QUIET};
+use super::palette::{self, AREA, Colour, GRID, GROUND, INK, QUIET};
 use super::scale::Scale;
 use airlight::Strategy;
 use anyhow::{Result, anyhow};
@@ -37,6 +37,8 @@ pub(super) struct Canvas<'a> {
     chart: ChartContext<'a, SVGBackend<'a>, Cartesian2d<Scale, Scale>>,
     x: Scale,
     y: Scale,
+    /// Where there are words already.
+    taken: Vec<Area>,
     /// Where the legend begins.
     legend: i32,
 }
@@ -79,7 +81,7 @@ pub(super) fn draw(
             .light_line_style(TRANSPARENT)
             .draw()
             .map_err(failed)?;
-        let mut canvas = Canvas { root, chart, x, y, legend: plot };
+        let mut canvas = Canvas { root, chart, x, y, taken: Vec::new(), legend: plot };
         draw(&mut canvas)?;
         canvas.root.present().map_err(failed)?;
     }
@@ -87,6 +89,8 @@ pub(super) fn draw(
     let size = format!("width=\"{WIDTH}\" height=\"{whole}\"");
     let shown = format!("width=\"{}\" height=\"{}\" role=\"img\" aria-label=\"{title}\"", WIDTH / FINE, whole / FINE);
     let svg = svg.replacen(&size, &shown, 1);
+    let edge = format!("stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\"", GROUND.hex(), 5 * FINE);
+    let svg = svg.replace("<text ", &format!("<text paint-order=\"stroke\" {edge} "));
     Ok(Drawing { name: name.to_owned(), title: title.to_owned(), svg })
 }
 
@@ -117,7 +121,11 @@ impl Canvas<'_> {
     pub(super) fn line(&mut self, points: impl Iterator<Item = (f64, f64)>, colour: Colour, line: Line) -> Result<()> {
         let places: Vec<(f64, f64)> = points.map(|point| self.place(point)).collect();
         for run in clip(&places, [self.x.from, self.x.to, self.y.from, self.y.to]) {
-            let style = stroke(colour, if matches!(line, Line::Bold) { 3 * FINE } else { 2 * FINE });
+            let style = match line {
+                Line::Solid => stroke(colour, 2 * FINE),
+                Line::Bold => stroke(colour, 3 * FINE),
+                Line::Dashed => stroke(colour, 3 * FINE / 2),
+            };
             match line {
                 Line::Solid | Line::Bold => {
                     self.chart.draw_series(once(PathElement::new(run, style))).map_err(failed)?
@@ -147,20 +155,25 @@ impl Canvas<'_> {
         Ok(())
     }
 
-    /// A text that begins, ends or is centred at a point, above it.
-    pub(super) fn say(&mut self, text: &str, point: (f64, f64), from: HPos) -> Result<()> {
-        let (x, y) = self.chart.backend_coord(&self.place(point));
-        self.write(text, (x, y - FINE), QUIET, Pos::new(from, VPos::Bottom))
+    /// A text that ends at a point, above it; none if it is not between the axes.
+    pub(super) fn say(&mut self, text: &str, point: (f64, f64)) -> Result<()> {
+        let (x, y) = self.place(point);
+        if !((self.x.from..=self.x.to).contains(&x) && (self.y.from..=self.y.to).contains(&y)) {
+            return Ok(());
+        }
+        let (x, y) = self.chart.backend_coord(&(x, y));
+        self.taken.push(Area([x - length(text), y - LETTERS, x, y]));
+        self.write(text, (x, y - FINE), QUIET, Pos::new(HPos::Right, VPos::Bottom))
     }
 
-    /// Names beside their points, off each other and off some more places that are taken.
+    /// Names beside their points, off each other and off what has been said.
     pub(super) fn names(&mut self, names: &[(&str, (f64, f64))]) -> Result<()> {
         let sized = |&(name, point): &(&str, (f64, f64))| {
-            (self.chart.backend_coord(&self.place(point)), (length(name), LETTERS + FINE))
+            (self.chart.backend_coord(&self.place(point)), (length(name), LETTERS * 7 / 8))
         };
         let points: Vec<_> = names.iter().map(sized).collect();
         let (xs, ys) = self.chart.plotting_area().get_pixel_range();
-        let areas = beside(&points, Area([xs.start, ys.start, xs.end, ys.end]), MARKER / 2, &[]);
+        let areas = beside(&points, Area([xs.start, ys.start, xs.end, ys.end]), MARKER / 2, &self.taken);
         for ((name, _), Area([left, top, right, bottom])) in names.iter().zip(areas) {
             let middle = (i32::midpoint(left, right), i32::midpoint(top, bottom));
             self.write(name, middle, INK, Pos::new(HPos::Center, VPos::Center))?;

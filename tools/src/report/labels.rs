@@ -37,11 +37,13 @@ pub(super) fn beside(points: &[((i32, i32), (i32, i32))], frame: Area, gap: i32,
             let (x, y) = (x + dx, y + dy);
             Area([x - half_width, y - half_height, x + half_width, y + half_height])
         };
-        let cost = |place: &Area| {
+        let cost = |(rank, place): &(usize, Area)| {
             let covered: i32 = taken.iter().map(|other| place.common(*other)).sum();
-            covered + 2 * (place.size() - place.common(frame))
+            // A little is covered rather than a name put far off.
+            covered + 2 * (place.size() - place.common(frame)) + *rank as i32 * place.size() / 100
         };
-        let best = places.into_iter().map(area).min_by_key(cost).unwrap_or(Area([x, y, x, y]));
+        let best =
+            places.into_iter().map(area).enumerate().min_by_key(cost).map_or(Area([x, y, x, y]), |(_, area)| area);
         taken.push(best);
         placed.push(best);
     }
@@ -59,8 +61,8 @@ mod tests {
         let placed = beside(&points, frame, 10, &[]);
         for (i, a) in placed.iter().enumerate() {
             assert_eq!(a.common(frame), a.size(), "{a:?}");
-            assert!(placed[..i].iter().all(|b| a.common(*b) == 0), "{placed:?}");
-            assert!(points.iter().all(|&((x, y), _)| a.common(Area([x - 10, y - 10, x + 10, y + 10])) == 0));
+            assert!(placed[..i].iter().all(|b| a.common(*b) < a.size() / 8), "{placed:?}");
+            assert!(points.iter().all(|&((x, y), _)| a.common(Area([x, y, x + 1, y + 1])) == 0));
         }
     }
 }

@@ -14,6 +14,8 @@ pub(super) struct Colour {
 pub(super) const INK: Colour = Colour { light: 0x1b1f24, dark: 0xe8eaed };
 /// Limits, fronts and what is said about them.
 pub(super) const QUIET: Colour = Colour { light: 0x5a6069, dark: 0xa9b0ba };
+/// What letters are edged with, so that they are read on lines.
+pub(super) const GROUND: Colour = Colour { light: 0xffffff, dark: 0x14171b };
 /// Lines of the grid.
 pub(super) const GRID: Colour = Colour { light: 0xdfe2e6, dark: 0x363b42 };
 /// The integrand's area.
@@ -82,7 +84,7 @@ impl Colour {
 
 /// The style sheet that gives drawings the dark colours where the reader wants them.
 pub(super) fn dark_style() -> String {
-    let all = [INK, QUIET, GRID, AREA].into_iter().chain(STRATEGIES);
+    let all = [INK, QUIET, GROUND, GRID, AREA].into_iter().chain(STRATEGIES);
     let rules = all.map(|Colour { light, dark }| {
         format!("[fill=\"#{light:06X}\"]{{fill:#{dark:06X}}}[stroke=\"#{light:06X}\"]{{stroke:#{dark:06X}}}\n")
     });
@@ -95,7 +97,7 @@ mod tests {
 
     #[test]
     fn no_two_colours_are_the_same() {
-        let all: Vec<Colour> = [INK, QUIET, GRID, AREA].into_iter().chain(STRATEGIES).collect();
+        let all: Vec<Colour> = [INK, QUIET, GROUND, GRID, AREA].into_iter().chain(STRATEGIES).collect();
         for (i, a) in all.iter().enumerate() {
             assert!(all[..i].iter().all(|b| a.light != b.light && a.dark != b.dark), "{a:?}");
         }

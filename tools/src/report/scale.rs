@@ -99,23 +99,27 @@ impl ValueFormatter<f64> for Scale {
     }
 }
 
-/// A number as it is read most easily: 0.5, 20, 65k, 16M, 1e-6.
+/// A number as it is read most easily: 0.5, 20, 64Ki, 16Mi, 1e-6.
 pub(super) fn short(value: f64) -> String {
-    let binary = |unit: f64| value >= unit && (value / unit).fract() == 0.0;
+    let power_of_two = (value.log2() - value.log2().round()).abs() < 1e-9;
     match value {
         0.0 => "0".to_owned(),
-        _ if (value.log2() - value.log2().round()).abs() < 1e-9 && binary(1024.0) => {
-            if binary(1_048_576.0) {
-                format!("{:.0}Mi", value / 1_048_576.0)
-            } else {
-                format!("{:.0}Ki", value / 1024.0)
-            }
-        }
+        _ if power_of_two && value > 1e6 => format!("{:.0}Mi", value / 1_048_576.0),
+        _ if power_of_two && value > 1e3 => format!("{:.0}Ki", value / 1024.0),
         _ if (0.0099..9999.0).contains(&value.abs()) => {
             let rounded = (value * 1000.0).round() / 1000.0;
             format!("{rounded}")
         }
         _ => format!("{value:.0e}"),
+    }
+}
+
+/// How many times one thing is another, in few digits.
+pub(super) fn times(ratio: f64) -> String {
+    match ratio {
+        _ if ratio < 9.95 => format!("{ratio:.1}"),
+        _ if ratio < 9999.5 => format!("{ratio:.0}"),
+        _ => format!("{ratio:.1e}"),
     }
 }
 

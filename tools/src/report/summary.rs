@@ -2,7 +2,7 @@
 
 use super::findings::Finding;
 use super::palette;
-use super::scale::short;
+use super::scale::times;
 use std::fmt::Write;
 
 /// A row per strategy.
@@ -13,7 +13,7 @@ pub(super) fn table(findings: &[Finding]) -> String {
         let corners = palette::marker(*strategy, 16).into_iter().map(|(x, y)| format!("{x},{y}"));
         let corners = corners.collect::<Vec<_>>().join(" ");
         let colour = palette::colour(*strategy).hex();
-        let efficiency = if *efficiency < 9.95 { format!("{efficiency:.1}") } else { short(efficiency.round()) };
+        let efficiency = times(*efficiency);
         let _ = writeln!(
             rows,
             "<tr><th scope=\"row\"><svg class=\"key\" viewBox=\"-9 -9 18 18\" aria-hidden=\"true\"><polygon \

@@ -1,13 +1,12 @@
 //! Time per sample against numerical error.
 
-use super::Figure;
+use super::{Figure, names};
 use crate::report::canvas::{self, Line};
 use crate::report::findings::Findings;
 use crate::report::palette::QUIET;
 use crate::report::scale::{Scale, around};
 use airlight::Strategy;
 use anyhow::Result;
-use plotters::style::text_anchor::HPos;
 
 const TIMES: [f64; 10] = [2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0];
 
@@ -32,15 +31,15 @@ pub(super) fn figure(findings: &Findings<'_>) -> Result<Figure> {
     let y = Scale::decades("error of the CDF at p99.9", (low, 1.0));
     let worst = points.iter().max_by(|(_, a), (_, b)| a.1.total_cmp(&b.1));
     let worst = worst.map_or(String::new(), |(strategy, (_, error))| format!(" (at most {error:.1e}, {strategy})"));
-    let drawing = canvas::draw("figure-2", "Time per sample against numerical error", (430, 0), (x, y), |canvas| {
+    let drawing = canvas::draw("figure-2", "Time per sample against numerical error", (400, 5), (x, y), |canvas| {
         for (text, error) in PUBLISHED {
             canvas.line([(fast, error), (slow, error)].into_iter(), QUIET, Line::Dashed)?;
-            canvas.say(text, (slow * 0.98, error), HPos::Right)?;
+            canvas.say(text, (slow * 0.98, error))?;
         }
         for &(strategy, point) in &points {
             canvas.marker(strategy, point)?;
         }
-        canvas.names(&points.iter().map(|(strategy, point)| (strategy.name(), *point)).collect::<Vec<_>>())
+        canvas.legend(&names())
     })?;
     Ok(Figure {
         title: "Time and numerical error",

@@ -4,7 +4,7 @@ use super::{Figure, names};
 use crate::report::canvas::{self, Line};
 use crate::report::findings::Findings;
 use crate::report::palette;
-use crate::report::scale::{Scale, around, short};
+use crate::report::scale::{Scale, around, times};
 use airlight::Strategy;
 use anyhow::Result;
 
@@ -41,7 +41,7 @@ pub(super) fn figure(findings: &Findings<'_>) -> Result<Figure> {
     let best = errors.iter().min_by(|a, b| a.1.total_cmp(&b.1));
     let theirs = errors.iter().find(|(strategy, _)| *strategy == Strategy::EquiAngular);
     let told = best.zip(theirs).map_or(String::new(), |((best, ours), (other, theirs))| {
-        let times = short((theirs / ours).powi(2).round());
+        let times = times((theirs / ours).powi(2));
         format!("{best} comes to any error in the least time: {other} needs {times} times as much. ")
     });
     Ok(Figure {

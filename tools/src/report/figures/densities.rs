@@ -123,7 +123,7 @@ fn drawing(example: &Example) -> Result<Drawing> {
                 canvas.marker(strategy, (t, density(t)))?;
             }
             let variance = scene.relative_variance(strategy).unwrap_or(f64::NAN);
-            legend.push((strategy, format!("{strategy} {}", brief(variance))));
+            legend.push((strategy, format!("{strategy}, V {}", brief(variance))));
         }
         canvas.legend(&legend)
     })

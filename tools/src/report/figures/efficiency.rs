@@ -5,10 +5,9 @@ use crate::report::canvas::{self, Canvas, Line};
 use crate::report::drawing::Drawing;
 use crate::report::findings::{Finding, Findings};
 use crate::report::palette::{self, QUIET};
-use crate::report::scale::{Scale, around, short};
+use crate::report::scale::{Scale, around, short, times};
 use airlight::Strategy;
 use anyhow::Result;
-use plotters::style::text_anchor::HPos;
 
 const TIMES: [f64; 10] = [2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0];
 
@@ -25,9 +24,9 @@ pub(super) fn figure(findings: &Findings<'_>) -> Result<Figure> {
     let scenes = findings.measured.canonical.0.first().map_or(0, |row| row.scenes);
     let best = findings.strategies.iter().max_by(|a, b| a.efficiency.total_cmp(&b.efficiency));
     let best = best.map_or(String::new(), |best| {
-        let times = short((best.efficiency / 10.0).round() * 10.0);
+        let than = times(best.efficiency);
         format!(
-            "{} gets the same error in the least time, {times} times as efficiently as equi-angular: ",
+            "{} gets the same error in the least time, {than} times as efficiently as equi-angular: ",
             best.strategy
         )
     });
@@ -37,8 +36,8 @@ pub(super) fn figure(findings: &Findings<'_>) -> Result<Figure> {
         title: "What a sample costs and what it is worth",
         caption: format!(
             "{best}along a dashed line 1/(V time) is the same, in multiples of that of equi-angular; the grey line joins \
-             those that no other beats in both. Above, V is the mean over {scenes} canonical scenes of each of four \
-             kinds; below, the median over the broad set, with a line up to that of the worst tenth."
+             those that no other beats in both. In the first drawing V is the mean over {scenes} canonical scenes of each of four \
+             kinds; in the second the median over the broad set, with a line up to what a tenth of it exceeds."
         ),
         drawings: vec![
             drawing(
@@ -86,10 +85,10 @@ fn isolines(canvas: &mut Canvas<'_>, one: f64, points: &[Point]) -> Result<()> {
     let (_, slow) = around(points.iter().map(|(_, (x, _))| *x), 1.6);
     let least = points.iter().map(|(_, (x, y))| x * y).fold(f64::INFINITY, f64::min);
     for power in 0..=(one / least).log10().ceil().max(0.0) as i32 {
-        let (times, product) = (10f64.powi(power), one / 10f64.powi(power));
+        let (multiple, product) = (10f64.powi(power), one / 10f64.powi(power));
         canvas.line([(fast, product / fast), (slow, product / slow)].into_iter(), QUIET, Line::Dashed)?;
         if power % 2 == 0 {
-            canvas.say(&format!("{}x", short(times)), (slow * 0.98, product / slow), HPos::Right)?;
+            canvas.say(&format!("{}x", short(multiple)), (slow * 0.98, product / slow))?;
         }
     }
     Ok(())

@@ -9,10 +9,9 @@ use crate::report::palette::{self, QUIET};
 use crate::report::scale::{Scale, around};
 use airlight::{Backend, Strategy};
 use anyhow::Result;
-use plotters::style::text_anchor::HPos;
 
 const SPEEDS: [f64; 12] = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0, 5000.0];
-const TITLE: &str = "10^6 samples per s";
+const TITLE: &str = "million samples / s";
 
 pub(super) fn figure(findings: &Findings<'_>) -> Result<Figure> {
     let rows = &findings.measured.profile.0;
@@ -40,7 +39,7 @@ pub(super) fn figure(findings: &Findings<'_>) -> Result<Figure> {
         title: "Throughput and the limits of the machine",
         caption: format!(
             "{nearest}The dashed line is memory: reading and writing the columns of the samples and nothing else. The \
-             last drawing is of one thread and batches of {} rays; the bar at the right is what arithmetic alone would \
+             last drawing is of one thread and batches of {} rays; at its right is what arithmetic alone would \
              allow the fastest backend, {}.",
             findings.batch,
             findings.backend.name()
@@ -66,8 +65,8 @@ fn by_batch(findings: &Findings<'_>, threads: usize) -> Result<Drawing> {
     let title = format!("Throughput by size of the batch, {counted}");
     canvas::draw(&format!("figure-4-threads-{threads}"), &title, (340, 5), (x, y), |canvas| {
         canvas.line(memory.iter().copied(), QUIET, Line::Dashed)?;
-        if let Some(&first) = memory.first() {
-            canvas.say("memory", first, HPos::Left)?;
+        if let Some(&last) = memory.last() {
+            canvas.say("memory", last)?;
         }
         for &strategy in Strategy::ALL {
             canvas.line(of(strategy).into_iter(), palette::colour(strategy), Line::Solid)?;
@@ -84,7 +83,9 @@ fn by_backend(findings: &Findings<'_>) -> Result<Drawing> {
     let mut backends: Vec<Backend> = Backend::available().collect();
     let time = |strategy, backend| findings.time(strategy, backend, 1, findings.batch);
     backends.retain(|&backend| time(Strategy::EquiAngular, backend).is_some());
-    backends.reverse();
+    let speed =
+        |&backend: &Backend| time(Strategy::EquiAngular, backend).and_then(|row| row.msamples_per_s).unwrap_or(0.0);
+    backends.sort_by(|a, b| speed(a).total_cmp(&speed(b)));
     let fastest = backends.len();
     let limit = |strategy: Strategy| {
         let row = time(strategy, findings.backend)?;
