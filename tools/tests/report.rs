@@ -4,6 +4,7 @@ use airlight::Strategy;
 use roxmltree::{Document, ParsingOptions};
 use serde_json::Value;
 use std::fs;
+use std::io::Cursor;
 use std::path::PathBuf;
 use std::process::{Command, Output};
 use std::sync::LazyLock;
@@ -130,7 +131,7 @@ fn the_page_is_well_formed_and_has_all_within_itself() {
 fn every_drawing_is_there_as_svg_and_png() {
     for name in FIGURES {
         let png = fs::read(file(&format!("{name}.png"))).unwrap();
-        let reader = png::Decoder::new(&png[..]).read_info().unwrap();
+        let reader = png::Decoder::new(Cursor::new(png)).read_info().unwrap();
         assert_eq!(reader.info().width, 1040, "{name}");
         let svg = text(&format!("{name}.svg"));
         let document = parse(&svg);

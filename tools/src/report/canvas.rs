@@ -166,6 +166,13 @@ impl Canvas<'_> {
         self.write(text, (x, y - FINE), QUIET, Pos::new(HPos::Right, VPos::Bottom))
     }
 
+    /// No name goes on the upright line between two points.
+    pub(super) fn keep_off(&mut self, point: (f64, f64), end: f64) {
+        let (x, y) = self.chart.backend_coord(&self.place(point));
+        let (_, top) = self.chart.backend_coord(&self.place((point.0, end)));
+        self.taken.push(Area([x - 2 * FINE, top, x + 2 * FINE, y]));
+    }
+
     /// Names beside their points, off each other and off what has been said.
     pub(super) fn names(&mut self, names: &[(&str, (f64, f64))]) -> Result<()> {
         let sized = |&(name, point): &(&str, (f64, f64))| {

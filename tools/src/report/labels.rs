@@ -1,5 +1,8 @@
 //! Where names go so that they cover neither each other nor a mark.
 
+/// Across and down: of a place, or of a size.
+type Corner = (i32, i32);
+
 /// A rectangle: left, top, right, bottom.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Area(pub(super) [i32; 4]);
@@ -20,7 +23,7 @@ impl Area {
 /// Puts a text of each size beside its point, inside a frame and off what is `taken` already; returns their areas.
 ///
 /// Each in turn takes the best of the places around its point; the nearer ones first.
-pub(super) fn beside(points: &[((i32, i32), (i32, i32))], frame: Area, gap: i32, taken: &[Area]) -> Vec<Area> {
+pub(super) fn beside(points: &[(Corner, Corner)], frame: Area, gap: i32, taken: &[Area]) -> Vec<Area> {
     let marks = points.iter().map(|&((x, y), _)| Area([x - gap, y - gap, x + gap, y + gap]));
     let mut taken: Vec<Area> = taken.iter().copied().chain(marks).collect();
     let mut placed = Vec::new();

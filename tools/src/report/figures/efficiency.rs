@@ -71,6 +71,7 @@ fn drawing(name: &str, title: &str, axis: &str, points: &[Point], whiskers: &[(P
         canvas.line(front(points).into_iter(), QUIET, Line::Bold)?;
         for &((strategy, (x, y)), worst) in whiskers {
             canvas.line([(x, y), (x, worst)].into_iter(), palette::colour(strategy), Line::Solid)?;
+            canvas.keep_off((x, y), worst);
         }
         for &(strategy, point) in points {
             canvas.marker(strategy, point)?;
