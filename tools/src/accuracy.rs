@@ -1,6 +1,7 @@
 //! `airlight accuracy`: the errors of the kernels on families of hard inputs, held against what is promised.
 
 use crate::arguments::{self, Json};
+use crate::progress::Part;
 use crate::{output, progress, table};
 use airlight::{Backend, Sampler, Strategy};
 use airlight_tools::backends::distinct;
@@ -41,42 +42,57 @@ fn names() -> String {
 /// Runs the comparison.
 pub(crate) fn run(args: &Args) -> Result<ExitCode> {
     let json = args.json.target()?;
-    let strategies = if args.strategy.is_empty() { Strategy::ALL } else { &args.strategy };
-    let families = if args.family.is_empty() { &Family::ALL[..] } else { &args.family };
-    let backends: Vec<Backend> = distinct().collect();
-
-    let runs = backends.len() * families.len() * strategies.len();
-    let progress = progress::bar(runs.saturating_mul(args.rays))?;
-    let mut rows = Vec::new();
-    for &family in families {
-        for &backend in &backends {
-            for &strategy in strategies {
-                progress.set_message(format!("{} {}", family.name(), strategy.name()));
-                let sampler = Sampler::new(strategy).with_backend(backend);
-                let errors = Errors::measure(&sampler, family, args.rays, args.seed, |done| progress.inc(done as u64));
-                rows.push(Row::new(strategy, family, backend, &errors));
-            }
-        }
-    }
+    let progress = progress::bar(args.steps())?;
+    let figures = measure(args, Part::whole(&progress));
     progress.finish_and_clear();
 
-    let figures = Figures(rows);
     let kept = figures.0.iter().all(|row| row.broken.is_empty());
     output::report(&figures, json.as_ref())?;
     Ok(if kept { ExitCode::SUCCESS } else { ExitCode::from(BROKEN) })
 }
 
+/// The errors of everything that was asked for.
+pub(crate) fn measure(args: &Args, progress: Part<'_>) -> Figures {
+    let mut rows = Vec::new();
+    for &family in args.families() {
+        for backend in distinct() {
+            for &strategy in args.strategies() {
+                progress.tell(format!("{} {}", family.name(), strategy.name()));
+                let sampler = Sampler::new(strategy).with_backend(backend);
+                let errors = Errors::measure(&sampler, family, args.rays, args.seed, |done| progress.inc(done));
+                rows.push(Row::new(strategy, family, backend, &errors));
+            }
+        }
+    }
+    Figures(rows)
+}
+
+impl Args {
+    fn strategies(&self) -> &[Strategy] {
+        if self.strategy.is_empty() { Strategy::ALL } else { &self.strategy }
+    }
+
+    fn families(&self) -> &[Family] {
+        if self.family.is_empty() { &Family::ALL } else { &self.family }
+    }
+
+    /// Rays to measure in all.
+    pub(crate) fn steps(&self) -> usize {
+        (distinct().count() * self.families().len() * self.strategies().len()).saturating_mul(self.rays)
+    }
+}
+
 /// A row per family, backend and strategy.
 #[derive(Serialize)]
 #[serde(transparent)]
-struct Figures(Vec<Row>);
+pub(crate) struct Figures(pub(crate) Vec<Row>);
 
 /// The figures of one; the names of the fields are the keys of the JSON.
 #[derive(Serialize)]
-struct Row {
-    strategy: &'static str,
+pub(crate) struct Row {
+    pub(crate) strategy: &'static str,
     family: &'static str,
-    backend: &'static str,
+    pub(crate) backend: &'static str,
     rays: usize,
     sampled: usize,
     nonfinite: usize,
@@ -101,6 +117,11 @@ struct Kind {
 const QUANTILES: [(&str, f64); 5] = [("p50", 0.5), ("p99", 0.99), ("p999", 0.999), ("p9999", 0.9999), ("max", 1.0)];
 
 impl Row {
+    /// The quantile of the errors that JSON has under this key.
+    pub(crate) fn quantile(&self, key: &str) -> Option<f64> {
+        self.quantiles.get(key)?.as_f64()
+    }
+
     fn new(strategy: Strategy, family: Family, backend: Backend, errors: &Errors) -> Self {
         let kinds: Vec<Kind> = errors
             .lists()

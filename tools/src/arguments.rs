@@ -24,6 +24,12 @@ impl Json {
     }
 }
 
+/// What a subcommand makes of a command line.
+pub(crate) fn parse<A: clap::Args>(line: &[String]) -> Result<A> {
+    let command = A::augment_args(clap::Command::new("airlight").no_binary_name(true));
+    Ok(A::from_arg_matches(&command.try_get_matches_from(line)?)?)
+}
+
 /// Reads a medium written as `mu_a,mu_s,g`.
 pub(crate) fn medium(text: &str) -> Result<Medium, String> {
     let numbers: Result<Vec<f32>, _> = text.split(',').map(|number| number.trim().parse()).collect();

@@ -10,6 +10,7 @@ mod output;
 mod profile;
 mod progress;
 mod render;
+mod report;
 mod sample;
 mod strata;
 mod table;
@@ -40,6 +41,7 @@ enum Command {
     Accuracy(accuracy::Args),
     Variance(variance::Args),
     Profile(profile::Args),
+    Report(report::Args),
 }
 
 fn main() -> ExitCode {
@@ -59,6 +61,7 @@ fn main() -> ExitCode {
         Command::Accuracy(args) => accuracy::run(&args),
         Command::Variance(args) => variance::run(&args).map(|()| ExitCode::SUCCESS),
         Command::Profile(args) => profile::run(&args).map(|()| ExitCode::SUCCESS),
+        Command::Report(args) => report::run(&args).map(|()| ExitCode::SUCCESS),
     };
     match done {
         Ok(code) => code,

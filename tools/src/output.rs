@@ -44,15 +44,20 @@ impl Target {
 
 /// Writes figures as JSON to `json`, and as a table to standard output unless the JSON goes there.
 pub(crate) fn report<F: Serialize + Display>(figures: &F, json: Option<&Target>) -> Result<()> {
-    if let Some(json) = json {
-        let mut text = serde_json::to_vec_pretty(figures)?;
-        text.push(b'\n');
-        json.write(&text)?;
+    if let Some(target) = json {
+        target.write(&self::json(figures)?)?;
     }
     match json {
         Some(Target::Stdout) => Ok(()),
         _ => print(figures.to_string().as_bytes()),
     }
+}
+
+/// Figures as a JSON file.
+pub(crate) fn json<F: Serialize>(figures: &F) -> Result<Vec<u8>> {
+    let mut text = serde_json::to_vec_pretty(figures)?;
+    text.push(b'\n');
+    Ok(text)
 }
 
 /// Writes to standard output; a reader who has seen enough is no failure.

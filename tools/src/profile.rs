@@ -11,12 +11,13 @@ mod subject;
 mod work;
 
 use self::arithmetic::{Need, Strain};
-use self::figures::Figures;
+pub(crate) use self::figures::{Figures, Row};
 use self::peers::{Peer, Peers};
-use self::rounds::measure;
+use self::rounds::take_turns;
 use self::streams::Stream;
 use self::work::{Contestant, Work};
 use crate::arguments::{self, Json};
+use crate::progress::Part;
 use crate::{output, progress};
 use airlight::{Backend, Limit, Stage, Strategy};
 use airlight_tools::threads;
@@ -81,36 +82,53 @@ pub(crate) fn run(args: &Args) -> Result<()> {
             None => Ok(()),
         };
     }
+    let progress = progress::bar(args.steps()?)?;
+    let figures = measure(args, Part::whole(&progress))?;
+    progress.finish_and_clear();
+    output::report(&figures, json.as_ref())
+}
+
+/// The times of everything that was asked for.
+pub(crate) fn measure(args: &Args, progress: Part<'_>) -> Result<Figures> {
     let peers = args.peers.as_deref().map(Peers::load).transpose()?;
     let pools = args.pools()?;
-    let (sizes, rounds) = (args.sizes(), args.rounds.unwrap_or(if args.quick { 3 } else { 9 }));
+    let (sizes, rounds) = (args.sizes(), args.rounds());
     let largest = sizes.iter().copied().max().unwrap_or(0);
     let mut workload = Workload::new(largest);
 
     let batches: Vec<_> = sizes.iter().map(|&rays| (rays, args.contestants(rays, &pools, peers.as_ref()))).collect();
-    let samples: usize = batches.iter().map(|(rays, contestants)| rays * contestants.len()).sum();
-    let progress = progress::bar(samples.saturating_mul(rounds + 1))?;
-    progress.set_message("limits of arithmetic");
-    let strains = measure(args.strains(&pools), rounds, |strain| Ok(strain.time()))?;
+    progress.tell("limits of arithmetic");
+    let strains = take_turns(args.strains(&pools), rounds, |strain| Ok(strain.time()))?;
     let counted = COUNTED.min(largest);
     let need = |&strategy: &Strategy| Ok((strategy, Need::of(strategy, counted, &mut workload)?));
     let needs: Vec<(Strategy, Need)> = args.strategies().iter().map(need).collect::<Result<_>>()?;
 
     let mut measured: Vec<_> = strains.into_iter().map(|(strain, times)| (strain.subject(), times)).collect();
     for (rays, contestants) in batches {
-        progress.set_message(format!("batches of {rays}"));
-        let batch = measure(contestants, rounds, |contestant| {
+        progress.tell(format!("batches of {rays}"));
+        let batch = take_turns(contestants, rounds, |contestant| {
             let time = contestant.time(&mut workload);
-            progress.inc(rays as u64);
+            progress.inc(rays);
             time
         })?;
         measured.extend(batch.into_iter().map(|(contestant, times)| (contestant.subject(), times)));
     }
-    progress.finish_and_clear();
-    output::report(&Figures::new(&measured, &needs), json.as_ref())
+    Ok(Figures::new(&measured, &needs))
 }
 
 impl Args {
+    /// Samples to draw in all.
+    pub(crate) fn steps(&self) -> Result<usize> {
+        let pools = self.pools()?;
+        let peers = if self.peers.is_some() { Peer::ALL.len() } else { 0 };
+        let samples = |&rays: &usize| rays * (self.contestants(rays, &pools, None).len() + peers);
+        Ok(self.sizes().iter().map(samples).sum::<usize>().saturating_mul(self.rounds() + 1))
+    }
+
+    fn rounds(&self) -> usize {
+        self.rounds.unwrap_or(if self.quick { 3 } else { 9 })
+    }
+
     fn strategies(&self) -> Vec<Strategy> {
         if self.strategy.is_empty() { Strategy::ALL.to_vec() } else { self.strategy.clone() }
     }

@@ -2,17 +2,16 @@
 
 mod figures;
 
-use self::figures::{Figures, Row};
+pub(crate) use self::figures::{Figures, Row};
 use crate::arguments::{self, Json};
 use crate::check::Check;
 use crate::output::{self, Target};
-use crate::progress;
+use crate::progress::{self, Part};
 use crate::strata::Strata;
 use crate::wavefront::Wavefront;
 use airlight::{Counts, Media, Medium, Sampler, Samples, Strategy};
 use airlight_tools::variates;
 use anyhow::{Context, Result, ensure};
-use indicatif::ProgressBar;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
@@ -52,13 +51,14 @@ pub(crate) fn run(args: &Args) -> Result<()> {
     ensure!(args.output.is_none() || args.strategy.len() == 1, "--output takes exactly one --strategy");
     let output = args.output.as_deref().map(Target::file).transpose()?;
     let json = args.json.target()?;
-    let wavefront = args.wavefront.as_deref().map_or_else(Wavefront::cornell, Wavefront::read)?;
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(args.threads.unwrap_or(0))
         .build()
         .context("cannot start the threads")?;
 
-    let (figures, columns) = pool.install(|| measure(args, &wavefront))?;
+    let progress = progress::bar(args.steps())?;
+    let (figures, columns) = pool.install(|| measure(args, Part::whole(&progress)))?;
+    progress.finish_and_clear();
 
     if let Some(output) = output {
         let Columns { t, pdf, weight } = &columns;
@@ -68,21 +68,19 @@ pub(crate) fn run(args: &Args) -> Result<()> {
 }
 
 /// The figures of every strategy, and the first repetition of the last.
-fn measure(args: &Args, wavefront: &Wavefront) -> Result<(Figures, Columns)> {
-    let strategies = if args.strategy.is_empty() { Strategy::ALL } else { &args.strategy };
-    let progress = progress::bar(strategies.len().saturating_mul(args.rays))?;
-    progress.set_message("quadrature");
+pub(crate) fn measure(args: &Args, progress: Part<'_>) -> Result<(Figures, Columns)> {
+    let wavefront = &args.wavefront.as_deref().map_or_else(Wavefront::cornell, Wavefront::read)?;
+    progress.tell("quadrature");
     let check = Check::new(wavefront, &args.medium, args.rays.min(wavefront.len()), args.check);
 
     let mut rows = Vec::new();
     let mut first = Columns::default();
-    for &strategy in strategies {
-        progress.set_message(strategy.name());
-        let run = sample(args, wavefront, strategy, &progress)?;
+    for &strategy in args.strategies() {
+        progress.tell(strategy.name());
+        let run = sample(args, wavefront, strategy, progress)?;
         rows.push(run.row(args, wavefront, &check));
         first = run.first;
     }
-    progress.finish_and_clear();
     let figures = Figures {
         version: env!("CARGO_PKG_VERSION"),
         wavefront: wavefront.name.clone(),
@@ -96,6 +94,17 @@ fn measure(args: &Args, wavefront: &Wavefront) -> Result<(Figures, Columns)> {
     Ok((figures, first))
 }
 
+impl Args {
+    fn strategies(&self) -> &[Strategy] {
+        if self.strategy.is_empty() { Strategy::ALL } else { &self.strategy }
+    }
+
+    /// Samples to draw in all.
+    pub(crate) fn steps(&self) -> usize {
+        self.strategies().len().saturating_mul(self.rays)
+    }
+}
+
 /// What one strategy made of the wavefront.
 struct Run {
     strategy: Strategy,
@@ -106,15 +115,16 @@ struct Run {
     first: Columns,
 }
 
+/// What was sampled.
 #[derive(Clone, Default)]
-struct Columns {
+pub(crate) struct Columns {
     t: Vec<f32>,
     pdf: Vec<f32>,
     weight: Vec<f32>,
 }
 
 /// Samples the wavefront in batches of one repetition; the last one may be a part of it.
-fn sample(args: &Args, wavefront: &Wavefront, strategy: Strategy, progress: &ProgressBar) -> Result<Run> {
+fn sample(args: &Args, wavefront: &Wavefront, strategy: Strategy, progress: Part<'_>) -> Result<Run> {
     let reached = args.rays.min(wavefront.len());
     let sampler = Sampler::new(strategy);
     let media = Media::One(args.medium);
@@ -140,7 +150,7 @@ fn sample(args: &Args, wavefront: &Wavefront, strategy: Strategy, progress: &Pro
         if start == 0 {
             first = columns.clone();
         }
-        progress.inc(count as u64);
+        progress.inc(count);
     }
     Ok(Run { strategy, counts, sampling, strata, first })
 }

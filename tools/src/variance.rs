@@ -4,9 +4,10 @@ mod adversarial;
 mod figures;
 mod source;
 
-use self::figures::{Figures, Row};
+pub(crate) use self::figures::{Figures, Row};
 use self::source::Source;
 use crate::arguments::{self, Json};
+use crate::progress::Part;
 use crate::{output, progress};
 use airlight::{Medium, Strategy};
 use airlight_tools::contender::Contender;
@@ -49,15 +50,18 @@ pub(crate) fn run(args: &Args) -> Result<()> {
     if args.adversarial {
         return output::report(&adversarial::search(args)?, json.as_ref());
     }
-    let contenders = args.contenders(Contender::all());
-    let sets = args.set.scenes(&args.medium, args.seed, args.scenes.unwrap_or(SCENES))?;
+    let progress = progress::bar(args.steps())?;
+    let figures = measure(args, Part::whole(&progress))?;
+    progress.finish_and_clear();
+    output::report(&figures, json.as_ref())
+}
 
-    let scenes: usize = sets.iter().map(|(_, scenes)| scenes.len()).sum();
-    let progress = progress::bar(scenes.saturating_mul(contenders.len()))?;
+/// The variances of everything that was asked for.
+pub(crate) fn measure(args: &Args, progress: Part<'_>) -> Result<Figures> {
     let mut rows = Vec::new();
-    for (name, scenes) in &sets {
-        for &contender in &contenders {
-            progress.set_message(format!("{name} {}", contender.name()));
+    for (name, scenes) in &args.set.scenes(&args.medium, args.seed, args.count())? {
+        for contender in args.contenders(Contender::all()) {
+            progress.tell(format!("{name} {}", contender.name()));
             let variance = |scene| {
                 let variance = contender.variance(scene);
                 progress.inc(1);
@@ -66,11 +70,20 @@ pub(crate) fn run(args: &Args) -> Result<()> {
             rows.push(Row::new(contender, name, scenes.par_iter().filter_map(variance).collect()));
         }
     }
-    progress.finish_and_clear();
-    output::report(&Figures(rows), json.as_ref())
+    Ok(Figures(rows))
 }
 
 impl Args {
+    /// Scenes of a set.
+    fn count(&self) -> usize {
+        self.scenes.unwrap_or(SCENES)
+    }
+
+    /// Variances to measure in all; of a wavefront, at most.
+    pub(crate) fn steps(&self) -> usize {
+        (self.set.count() * self.contenders(Contender::all()).len()).saturating_mul(self.count())
+    }
+
     /// Those asked for, or else `all`.
     fn contenders(&self, all: Vec<Contender>) -> Vec<Contender> {
         if self.strategy.is_empty() { all } else { self.strategy.clone() }

@@ -13,26 +13,26 @@ use serde::Serialize;
 /// A row per time and ratio.
 #[derive(Debug, Serialize)]
 #[serde(transparent)]
-pub(super) struct Figures(Vec<Row>);
+pub(crate) struct Figures(pub(crate) Vec<Row>);
 
 /// The time of one sample, or a ratio of two such times. The names of the fields are the keys of the JSON.
 #[derive(Debug, Serialize)]
-struct Row {
+pub(crate) struct Row {
     #[serde(flatten)]
-    subject: Subject,
-    ns_per_sample: Option<f64>,
-    msamples_per_s: Option<f64>,
+    pub(crate) subject: Subject,
+    pub(crate) ns_per_sample: Option<f64>,
+    pub(crate) msamples_per_s: Option<f64>,
     /// What the time is compared with; the ratio stands instead of the time.
     against: Option<&'static str>,
-    ratio: Option<f64>,
+    pub(crate) ratio: Option<f64>,
     /// Between these lie the figures of all rounds, of which the median is reported.
     min: f64,
     max: f64,
     /// Of a limit of memory.
     gb_per_s: Option<f64>,
     /// The limit that the kernel is nearest to, and how near: the share of its time that the limit alone would take.
-    bound_by: Option<&'static str>,
-    share: Option<f64>,
+    pub(crate) bound_by: Option<&'static str>,
+    pub(crate) share: Option<f64>,
 }
 
 impl Row {

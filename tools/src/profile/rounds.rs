@@ -16,7 +16,7 @@ pub(super) struct Spread {
 }
 
 /// Measures every contestant in every round; a first one, which warms up, does not count.
-pub(super) fn measure<C>(
+pub(super) fn take_turns<C>(
     contestants: Vec<C>,
     rounds: usize,
     mut time: impl FnMut(&C) -> Result<f64>,
@@ -64,7 +64,7 @@ mod tests {
     #[test]
     fn contestants_take_turns_and_the_first_round_does_not_count() {
         let mut turns = Vec::new();
-        let measured = measure(vec!['a', 'b'], 2, |&contestant| {
+        let measured = take_turns(vec!['a', 'b'], 2, |&contestant| {
             turns.push(contestant);
             Ok(turns.len() as f64)
         });

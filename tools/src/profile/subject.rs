@@ -3,21 +3,21 @@
 use serde::Serialize;
 
 /// The part of a time: all of a kernel that writes `t` and `pdf`.
-pub(super) const TOTAL: &str = "total";
+pub(crate) const TOTAL: &str = "total";
 
 /// The names of the fields are keys of the JSON, which others read.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-pub(super) struct Subject {
-    pub(super) strategy: Option<&'static str>,
-    pub(super) backend: Option<&'static str>,
+pub(crate) struct Subject {
+    pub(crate) strategy: Option<&'static str>,
+    pub(crate) backend: Option<&'static str>,
     /// A kernel of the library of peers.
-    pub(super) peer: Option<&'static str>,
+    pub(crate) peer: Option<&'static str>,
     /// A limit of the machine: `fma`, `division` (an operation of one lane); `read`, `write`, `stream` (a ray).
-    pub(super) limit: Option<&'static str>,
-    pub(super) threads: usize,
+    pub(crate) limit: Option<&'static str>,
+    pub(crate) threads: usize,
     /// Rays of a batch; none where there is no batch.
-    pub(super) rays: Option<usize>,
-    pub(super) samples_per_ray: usize,
+    pub(crate) rays: Option<usize>,
+    pub(crate) samples_per_ray: usize,
     /// A part of the kernel, or [`TOTAL`], or `with-weight`, where weights and `r` are written as well.
-    pub(super) stage: Option<&'static str>,
+    pub(crate) stage: Option<&'static str>,
 }

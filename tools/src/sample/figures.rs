@@ -7,20 +7,20 @@ use std::fmt;
 
 /// The settings and a row per strategy. The names of the fields are the keys of the JSON, which others read.
 #[derive(Debug, Serialize)]
-pub(super) struct Figures {
-    pub(super) version: &'static str,
-    pub(super) wavefront: String,
-    pub(super) wavefront_rays: usize,
-    pub(super) rays: usize,
-    pub(super) medium: Coefficients,
-    pub(super) seed: u64,
-    pub(super) threads: usize,
-    pub(super) results: Vec<Row>,
+pub(crate) struct Figures {
+    pub(crate) version: &'static str,
+    pub(crate) wavefront: String,
+    pub(crate) wavefront_rays: usize,
+    pub(crate) rays: usize,
+    pub(crate) medium: Coefficients,
+    pub(crate) seed: u64,
+    pub(crate) threads: usize,
+    pub(crate) results: Vec<Row>,
 }
 
 /// A medium, spelt out.
 #[derive(Debug, Serialize)]
-pub(super) struct Coefficients {
+pub(crate) struct Coefficients {
     mu_a: f32,
     mu_s: f32,
     g: f32,
@@ -34,28 +34,28 @@ impl From<Medium> for Coefficients {
 
 /// One strategy; what cannot be told, such as the standard error of a single repetition, is none.
 #[derive(Debug, Serialize)]
-pub(super) struct Row {
-    pub(super) strategy: &'static str,
-    pub(super) rays: usize,
-    pub(super) msamples_per_s: f64,
-    pub(super) sampled: usize,
-    pub(super) empty: usize,
-    pub(super) invalid: usize,
-    pub(super) bisected: usize,
+pub(crate) struct Row {
+    pub(crate) strategy: &'static str,
+    pub(crate) rays: usize,
+    pub(crate) msamples_per_s: f64,
+    pub(crate) sampled: usize,
+    pub(crate) empty: usize,
+    pub(crate) invalid: usize,
+    pub(crate) bisected: usize,
     /// Mean weight over the wavefront \[1/m^2\].
-    pub(super) radiance: Option<f64>,
+    pub(crate) radiance: Option<f64>,
     /// Its standard error, from the spread of each ray's samples.
-    pub(super) radiance_stderr: Option<f64>,
+    pub(crate) radiance_stderr: Option<f64>,
     /// Rays that were compared with the oracle; the following hold for them alone.
-    pub(super) check_rays: usize,
-    pub(super) check_estimate: Option<f64>,
+    pub(crate) check_rays: usize,
+    pub(crate) check_estimate: Option<f64>,
     /// The standard error that the oracle foretells.
-    pub(super) check_stderr: Option<f64>,
-    pub(super) check_quadrature: Option<f64>,
-    pub(super) check_z: Option<f64>,
+    pub(crate) check_stderr: Option<f64>,
+    pub(crate) check_quadrature: Option<f64>,
+    pub(crate) check_z: Option<f64>,
     /// The 0.999 quantile and the maximum of `|CDF(t) - u|` in the first repetition.
-    pub(super) cdf_p999: Option<f64>,
-    pub(super) cdf_max: Option<f64>,
+    pub(crate) cdf_p999: Option<f64>,
+    pub(crate) cdf_max: Option<f64>,
 }
 
 impl fmt::Display for Figures {

@@ -8,18 +8,18 @@ use std::fmt;
 /// A row per set and density.
 #[derive(Debug, Serialize)]
 #[serde(transparent)]
-pub(super) struct Figures(pub(super) Vec<Row>);
+pub(crate) struct Figures(pub(crate) Vec<Row>);
 
 /// The relative variances of one density on one set; the names of the fields are the keys of the JSON, which others
 /// read. None where no density is valid.
 #[derive(Debug, Serialize)]
-pub(super) struct Row {
-    strategy: &'static str,
-    set: String,
-    scenes: usize,
-    median: Option<f64>,
-    mean: Option<f64>,
-    p90: Option<f64>,
+pub(crate) struct Row {
+    pub(crate) strategy: &'static str,
+    pub(crate) set: String,
+    pub(crate) scenes: usize,
+    pub(crate) median: Option<f64>,
+    pub(crate) mean: Option<f64>,
+    pub(crate) p90: Option<f64>,
     p99: Option<f64>,
     max: Option<f64>,
     share_above_1: Option<f64>,

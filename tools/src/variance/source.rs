@@ -33,6 +33,14 @@ impl FromStr for Source {
 }
 
 impl Source {
+    /// How many sets it is.
+    pub(super) fn count(&self) -> usize {
+        match self {
+            Self::Sets(sets) => sets.len(),
+            Self::File(_) => 1,
+        }
+    }
+
     /// Every set's name and its `count` scenes; of a wavefront at most that many of its rays, spread over it, in
     /// `medium`, less those that are not lit.
     pub(super) fn scenes(&self, medium: &Medium, seed: u64, count: usize) -> Result<Vec<(String, Vec<Scene>)>> {

@@ -1,0 +1,73 @@
+//! `airlight report`: measures speed, variance and accuracy, and writes one page of figures.
+
+mod canvas;
+mod drawing;
+mod figures;
+mod findings;
+mod jobs;
+mod labels;
+mod machine;
+mod page;
+mod palette;
+mod scale;
+mod summary;
+
+use self::findings::Findings;
+use self::jobs::Jobs;
+use crate::output::{self, Target};
+use crate::{arguments, progress};
+use anyhow::{Context, Result};
+use std::fs;
+use std::path::PathBuf;
+
+/// Measure speed, variance and accuracy, and write a page of figures with their data
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// Folder of the page index.html, of its figures as .svg and .png, and of their data as .json
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Fewer scenes, rays and rounds: less than two minutes
+    #[arg(long)]
+    quick: bool,
+    /// Scenes of every set of which variances are taken [default: 2000, or 400 with --quick]
+    #[arg(long, value_name = "SCENES", value_parser = arguments::positive)]
+    scenes: Option<usize>,
+    /// Generic rays of which errors are taken [default: 1048576, or 65536 with --quick]
+    #[arg(long, value_name = "RAYS", value_parser = arguments::positive)]
+    rays: Option<usize>,
+    /// Samples of the wavefront, with each strategy [default: 16000000, or 524288 with --quick]
+    #[arg(long, value_name = "SAMPLES", value_parser = arguments::positive)]
+    samples: Option<usize>,
+    /// Rays of a batch that is timed, may be repeated [default: as of `airlight profile`]
+    #[arg(long, value_name = "RAYS", value_parser = arguments::batch)]
+    batch: Vec<usize>,
+    /// Rounds of timing [default: 9, or 3 with --quick]
+    #[arg(long, value_name = "ROUNDS", value_parser = arguments::positive)]
+    rounds: Option<usize>,
+}
+
+/// Measures everything, then writes everything.
+pub(crate) fn run(args: &Args) -> Result<()> {
+    fs::create_dir_all(&args.out).with_context(|| format!("cannot write {}", args.out.display()))?;
+    let file = |name: &str| Target::file(&args.out.join(name));
+    let index = file("index.html")?;
+
+    let jobs = Jobs::new(args)?;
+    let bar = progress::bar(jobs.steps()?)?;
+    let measured = jobs.measure(&bar)?;
+    bar.finish_and_clear();
+
+    let findings = Findings::new(&measured);
+    let drawn = figures::all(&findings)?;
+    for (name, json) in measured.files()? {
+        file(name)?.write(&json)?;
+    }
+    file("summary.json")?.write(&output::json(&findings.strategies)?)?;
+    for drawing in drawn.iter().flat_map(|figure| &figure.drawings) {
+        file(&format!("{}.svg", drawing.name))?.write(drawing.file().as_bytes())?;
+        file(&format!("{}.png", drawing.name))?.write(&drawing.png()?)?;
+    }
+    index.write(page::page(&findings, &drawn, &jobs.commands()).as_bytes())?;
+    eprintln!("{}", args.out.join("index.html").display());
+    Ok(())
+}

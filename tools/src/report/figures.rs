@@ -1,0 +1,35 @@
+//! The figures, a file each.
+
+mod accuracy;
+mod convergence;
+mod densities;
+mod efficiency;
+mod throughput;
+
+use super::drawing::Drawing;
+use super::findings::Findings;
+use airlight::Strategy;
+use anyhow::Result;
+
+/// One or more drawings and what to see in them.
+pub(super) struct Figure {
+    pub(super) title: &'static str,
+    pub(super) caption: String,
+    pub(super) drawings: Vec<Drawing>,
+}
+
+/// All of them.
+pub(super) fn all(findings: &Findings<'_>) -> Result<Vec<Figure>> {
+    Ok(vec![
+        efficiency::figure(findings)?,
+        accuracy::figure(findings)?,
+        densities::figure()?,
+        throughput::figure(findings)?,
+        convergence::figure(findings)?,
+    ])
+}
+
+/// The legend of lines.
+fn names() -> Vec<(Strategy, String)> {
+    Strategy::ALL.iter().map(|&strategy| (strategy, strategy.name().to_owned())).collect()
+}
