@@ -185,7 +185,8 @@ impl<I: Isa, const K: usize> Product<I, K> {
     /// From a density over `v` where `Y + Y_c = Y_c/s`: `dv/dt = (dv/dY) X/r`.
     #[inline(always)]
     fn pdf_over_v(&self, isa: I, p_v: I::V, s: I::V, x: I::V, r: I::V) -> Pdf<I> {
-        let over_y = p_v * (s * s) * ((isa.splat(1.0) + self.e) * self.inv_y_c);
+        // In this order no part of it leaves f32 before the whole does.
+        let over_y = (p_v * s) * (s * ((isa.splat(1.0) + self.e) * self.inv_y_c));
         Pdf { over_t: over_y * (x / r), times_r2: over_y * (x * r) }
     }
 }

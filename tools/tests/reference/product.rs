@@ -35,7 +35,7 @@ impl<'a> Product<'a> {
     /// The pdf and the CDF at `t` with so many knots.
     pub(super) fn at(&self, t: &Big, count: usize) -> (Big, Big) {
         let v = knots(count);
-        let f = self.line(&v);
+        let f = self.line(v);
         let areas: Vec<Big> = (1..count).map(|i| (&v[i] - &v[i - 1]) * (&f[i - 1] + &f[i]) / big(2.0)).collect();
         let total = areas.iter().fold(big(0.0), |sum, area| sum + area);
 
