@@ -11,6 +11,9 @@ use super::findings::Findings;
 use airlight::Strategy;
 use anyhow::Result;
 
+/// Ticks of the time of a sample \[ns\].
+const TIMES: [f64; 10] = [2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0];
+
 /// One or more drawings and what to see in them.
 pub(super) struct Figure {
     pub(super) title: &'static str,

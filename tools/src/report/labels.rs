@@ -58,7 +58,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn texts_cover_neither_each_other_nor_marks() {
+    fn texts_hardly_cover_each_other_and_no_middle_of_a_mark() {
         let frame = Area([0, 0, 1000, 1000]);
         let points = [(500, 500), (520, 510), (480, 520), (900, 500), (20, 20)].map(|point| (point, (200, 30)));
         let placed = beside(&points, frame, 10, &[]);

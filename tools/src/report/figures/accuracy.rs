@@ -1,14 +1,12 @@
 //! Time per sample against numerical error.
 
-use super::{Figure, names};
+use super::{Figure, TIMES, names};
 use crate::report::canvas::{self, Line};
 use crate::report::findings::Findings;
 use crate::report::palette::QUIET;
 use crate::report::scale::{Scale, around};
 use airlight::Strategy;
 use anyhow::Result;
-
-const TIMES: [f64; 10] = [2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0];
 
 /// The same figure of others, as the README has it: measured once, on such rays.
 const PUBLISHED: [(&str, f64); 4] = [

@@ -1,6 +1,6 @@
 //! Time per sample against relative variance.
 
-use super::Figure;
+use super::{Figure, TIMES};
 use crate::report::canvas::{self, Canvas, Line};
 use crate::report::drawing::Drawing;
 use crate::report::findings::{Finding, Findings};
@@ -8,8 +8,6 @@ use crate::report::palette::{self, QUIET};
 use crate::report::scale::{Scale, around, short, times};
 use airlight::Strategy;
 use anyhow::Result;
-
-const TIMES: [f64; 10] = [2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0];
 
 /// A strategy's point: time, variance.
 type Point = (Strategy, (f64, f64));
