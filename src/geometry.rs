@@ -115,7 +115,7 @@ impl<I: Isa> Geometry<I> {
         let e = [y[0] - o[0], y[1] - o[1], y[2] - o[2]];
 
         // 1/|d| by its series about |d| = 1: distances are in metres also where d is not quite a unit vector.
-        let q = dot(d, d) - isa.splat_double(1.0);
+        let q = d[2].mul_add(d[2], d[1].mul_add(d[1], d[0].mul_add(d[0], isa.splat_double(-1.0))));
         let unit = q
             .mul_add(isa.splat_double(-0.3125), isa.splat_double(0.375))
             .mul_add(q, isa.splat_double(-0.5))
@@ -151,9 +151,10 @@ impl<I: Isa> Geometry<I> {
         let tn = (-I::V::narrow(alpha_h) * inv_beta).max(ta).min(tb);
         let lit_length = (I::V::select(clip_a, m_b, m_a) * inv_beta.abs()).min(length);
         let length = I::V::select(clip_a | clip_b, lit_length, length);
-        // A Newton step, as the density may change faster than t' is rounded.
-        let m_n = I::V::narrow(beta_exact.mul_add(tn.widen(), alpha_h));
-        let exact_t_n = (t_h + tn.widen()) - (m_n * inv_beta).widen();
+        // Twice a Newton step: the first leaves 1e-15 of t', and what is lit may be as short.
+        let once = tn.widen() - (I::V::narrow(beta_exact.mul_add(tn.widen(), alpha_h)) * inv_beta).widen();
+        let twice = once - (I::V::narrow(beta_exact.mul_add(once, alpha_h)) * inv_beta).widen();
+        let exact_t_n = t_h + twice;
         let t_n = I::V::narrow(exact_t_n).max(ray.t_min).min(t_max);
         let t_n_low = I::V::narrow(exact_t_n - t_n.widen());
 
