@@ -116,7 +116,7 @@ impl Sampler {
     ///
     /// It is the density of what [`sample`](Self::sample) returns, taken at `t` as rounded: where `t` resolves `r` the
     /// two agree within 1e-5, next to the emitter that of `sample` is the exact one. Relative error at a given `t`: below
-    /// 8 x 2^-24 for 99 % of rays (10 for [`Strategy::TaylorPhase`], 16 for the product densities and 48 at their ends), 64 (128, 256)
+    /// 8 x 2^-24 for 99 % of rays (10 for the Taylor densities, 16 for the product densities and 48 at their ends), 64 (128, 256)
     /// for 99.99 %;
     /// below a thousandth of `1/(t_b - t_a)`, the mean over the sampled interval, relative to that. A density below f32's
     /// range is 0.

@@ -110,8 +110,10 @@ fn at_the_ends(family: Family) -> bool {
 /// In units of 2^-24. `pdf_floor` is 2 at p99, whatever the strategy.
 fn pdf_p99(strategy: Strategy, at_the_ends: bool) -> f64 {
     match strategy {
-        // Seen 8.01: t' and h to half an ulp move theta, and the logarithm of the polynomial has slopes up to 30.
+        // Seen 8.2, of the phase, and of the transmittance on arbitrary bits: t' and h to half an ulp move theta, and the
+        // logarithm of the polynomial has slopes up to 30.
         Strategy::TaylorPhase => 10.0,
+        Strategy::TaylorTransmittance if at_the_ends => 10.0,
         // Asked 8, seen 11.8: a dozen roundings of v and of a knot, and what the line makes of them; 36 at the ends.
         _ if strategy.has_radiance() => {
             if at_the_ends {
