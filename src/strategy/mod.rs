@@ -19,7 +19,7 @@ use std::str::FromStr;
 ///
 /// | you have | take | as measured |
 /// |---|---|---|
-/// | one sample per ray and emitter | `Product5`, the default | 2.1 times the cost of `EquiAngular`; in four rendered scenes, shadows included, 1.5 to 11 times as efficient, and within 10 % of the best strategy of each |
+/// | one sample per ray and emitter | `Product5`, the default | 2.1 times the cost of `EquiAngular`; in four rendered scenes, shadows included, 1.5 to 11 times as efficient, and within a seventh of the best strategy of each |
 /// | several samples per ray and emitter | `Product9` | the set-up is shared: with 8 samples one of them costs 1.1 times a single sample of `EquiAngular`, and its mean variance is a sixth of that of `Product5` |
 /// | no occluders, or [`radiance`](crate::Sampler::radiance) for its own sake | `Product17` | mean relative variance 1.2e-4; twice the cost of `Product5` |
 /// | many lights to choose from | `Product3` for `radiance`, `Product5` for the sample | what chooses may be off by 5 % |
