@@ -349,6 +349,7 @@ fn r_error(scene: &Scene, strategy: Strategy, rounding: &Rounding, u: f64, r: f6
         beyond([nearest, low.abs().max(high.abs())].map(|t_prime| scene.h().hypot(t_prime)), r) / ulp(r)
     };
     let of_t = outside(rounding.ends);
+    // The inverse is dear, and few need it.
     if of_t <= 4.0 {
         return of_t;
     }

@@ -17,42 +17,28 @@ const POINTS: usize = 400;
 struct Example {
     name: &'static str,
     title: &'static str,
-    /// The emitter's place along the ray and beside it \[m\].
-    emitter: (f32, f32),
     normal: Option<Vec3>,
     /// `mu_a`, `mu_s`, `g`.
     medium: (f32, f32, f32),
 }
 
+/// The emitter's place along the ray and beside it \[m\].
+const EMITTER: (f32, f32) = (1.6, 0.5);
 /// Length of the rays \[m\].
 const LENGTH: f32 = 4.0;
 
 const EXAMPLES: [Example; 4] = [
-    Example {
-        name: "figure-3-thin",
-        title: "Thin air, a point emitter",
-        emitter: (1.6, 0.5),
-        normal: None,
-        medium: (0.0, 0.02, 0.0),
-    },
+    Example { name: "figure-3-thin", title: "Thin air, a point emitter", normal: None, medium: (0.0, 0.02, 0.0) },
     Example {
         name: "figure-3-normal",
         title: "Thin air, an emitter that turns away",
-        emitter: (1.6, 0.5),
         normal: Some(Vec3::new(0.8, -0.6, 0.0)),
         medium: (0.0, 0.02, 0.0),
     },
-    Example {
-        name: "figure-3-dense",
-        title: "Dense fog, a point emitter",
-        emitter: (1.6, 0.5),
-        normal: None,
-        medium: (0.0, 2.5, 0.0),
-    },
+    Example { name: "figure-3-dense", title: "Dense fog, a point emitter", normal: None, medium: (0.0, 2.5, 0.0) },
     Example {
         name: "figure-3-all",
         title: "Dense, forward (g 0.85), turned away",
-        emitter: (1.6, 0.5),
         normal: Some(Vec3::new(0.8, -0.6, 0.0)),
         medium: (0.0, 1.5, 0.85),
     },
@@ -86,7 +72,7 @@ pub(super) fn figure() -> Result<Figure> {
 
 impl Example {
     fn scene(&self) -> Result<Scene> {
-        let (along, beside) = self.emitter;
+        let (along, beside) = EMITTER;
         let place = Vec3::new(along, beside, 0.0);
         let emitter = self.normal.map_or_else(|| Emitter::point(place), |n| Emitter::point_normal(place, n))?;
         let (mu_a, mu_s, g) = self.medium;
