@@ -3,7 +3,7 @@
 use super::taylor::{Expansion, ORDER};
 use crate::geometry::Geometry;
 use crate::integrand::MediumLanes;
-use crate::simd::math::horner_double;
+use crate::simd::math::{horner_double, reciprocal};
 use crate::simd::{Isa, Lanes, Number};
 
 pub(crate) struct OfPhase;
@@ -15,9 +15,7 @@ impl<I: Isa> Expansion<I> for OfPhase {
         // v_n / v_0 = q^n.
         let (g, one) = (medium.g.abs().widen(), c(1.0));
         let square = g.mul_add(g, one);
-        // 1/(1 + g^2) with a step of Newton's method.
-        let inverse = (isa.splat(1.0) / I::V::narrow(square)).widen();
-        let q = g * (inverse * (c(2.0) - square * inverse));
+        let q = g * reciprocal(isa, square);
         let s = q * q;
         [
             c(1.0),
