@@ -28,6 +28,8 @@ const MARKER: i32 = 15 * FINE;
 const LEFT: i32 = 76 * FINE;
 const BELOW: i32 = 54 * FINE;
 const MARGIN: i32 = 12 * FINE;
+/// Room for half of a label at the end of an axis.
+const RIGHT: i32 = 18 * FINE;
 /// The backend writes letters smaller than they are asked for, by this.
 const BACKEND: f64 = 1.24;
 
@@ -67,6 +69,7 @@ pub(super) fn draw(
         let mut builder = ChartBuilder::on(&upper);
         builder
             .margin(MARGIN)
+            .margin_right(RIGHT)
             .set_label_area_size(LabelAreaPosition::Left, LEFT)
             .set_label_area_size(LabelAreaPosition::Bottom, BELOW);
         let mut chart = builder.build_cartesian_2d(x.clone(), y.clone()).map_err(failed)?;
