@@ -21,15 +21,14 @@ impl<I: Isa> Expansion<I> for OfTransmittance {
     #[inline(always)]
     fn coefficients(isa: I, geometry: &Geometry<I>, medium: &MediumLanes<I>) -> [I::Double; ORDER + 1] {
         let m = m(isa, geometry, medium);
-        let over = |factorial: f64| isa.splat_double(1.0 / factorial);
         [
-            over(1.0),
+            isa.splat_double(1.0),
             -m,
-            m * horner_double(isa, m, [1.0, -1.0]) * over(2.0),
-            m * horner_double(isa, m, [-1.0, 3.0, -2.0]) * over(6.0),
-            m * horner_double(isa, m, [1.0, -6.0, 11.0, -5.0]) * over(24.0),
-            m * horner_double(isa, m, [-1.0, 10.0, -35.0, 45.0, -16.0]) * over(120.0),
-            m * horner_double(isa, m, [1.0, -15.0, 85.0, -210.0, 211.0, -61.0]) * over(720.0),
+            m * horner_double(isa, m, over(2, [1, -1])),
+            m * horner_double(isa, m, over(6, [-1, 3, -2])),
+            m * horner_double(isa, m, over(24, [1, -6, 11, -5])),
+            m * horner_double(isa, m, over(120, [-1, 10, -35, 45, -16])),
+            m * horner_double(isa, m, over(720, [1, -15, 85, -210, 211, -61])),
         ]
     }
 
@@ -51,4 +50,15 @@ impl<I: Isa> Expansion<I> for OfTransmittance {
     fn mirrored(isa: I, _: &MediumLanes<I>) -> I::Mask {
         none(isa)
     }
+}
+
+/// Numerators over a factorial.
+const fn over<const K: usize>(factorial: i32, numerators: [i32; K]) -> [f64; K] {
+    let mut quotients = [0.0; K];
+    let mut k = 0;
+    while k < K {
+        quotients[k] = numerators[k] as f64 / factorial as f64;
+        k += 1;
+    }
+    quotients
 }
