@@ -76,10 +76,17 @@ pub(crate) fn sin_cos<I: Isa>(isa: I, x: I::V) -> (I::V, I::V) {
     let c = |v| isa.splat(v);
     let obtuse = c(PI_2_HIGH).lt(x);
     let y = I::V::select(obtuse, (c(2.0 * PI_2_HIGH) - x) + c(2.0 * PI_2_LOW), x);
-    let z = y * y;
-    let sin = (y * z).mul_add(sin_series(isa, z), y);
-    let cos = z.mul_add(cos_series(isa, z), c(1.0));
+    let (sin, cos) = sin_cos_acute(isa, y);
     (sin, I::V::select(obtuse, -cos, cos))
+}
+
+/// The same for `x` in `[0, pi/2]`.
+#[inline(always)]
+pub(crate) fn sin_cos_acute<I: Isa>(isa: I, x: I::V) -> (I::V, I::V) {
+    let z = x * x;
+    let sin = (x * z).mul_add(sin_series(isa, z), x);
+    let cos = z.mul_add(cos_series(isa, z), isa.splat(1.0));
+    (sin, cos)
 }
 
 /// Coefficients, highest degree first, of `(sin y / y - 1) / y^2` in `y^2`, for `|y| <= pi/2`.

@@ -92,6 +92,7 @@ pub(crate) trait Lanes: Number + Div<Output = Self> {
 
 /// The double-precision companion of a lane group: geometry is computed in it and rounded once.
 pub(crate) trait Double: Number {
+    fn min(self, o: Self) -> Self;
     fn max(self, o: Self) -> Self;
 }
 

@@ -45,6 +45,10 @@ impl<T: Number> Number for Pair<T> {
 
 impl<D: Double> Double for Pair<D> {
     #[inline(always)]
+    fn min(self, o: Self) -> Self {
+        Self(self.0.min(o.0), self.1.min(o.1))
+    }
+    #[inline(always)]
     fn max(self, o: Self) -> Self {
         Self(self.0.max(o.0), self.1.max(o.1))
     }

@@ -15,7 +15,7 @@ use crate::density::{Density, Drawn, Pdf};
 use crate::geometry::{Geometry, Point};
 use crate::integrand::MediumLanes;
 use crate::inversion::{At, solve};
-use crate::simd::math::{SIN, horner, horner_lanes, sin_cos, tan};
+use crate::simd::math::{SIN, horner, horner_lanes, sin_cos_acute, tan};
 use crate::simd::{Double, Isa, Lanes, Number};
 use core::marker::PhantomData;
 
@@ -30,12 +30,26 @@ const PRODUCT_ORDER: usize = ORDER + COSINE_ORDER;
 
 /// A Taylor polynomial of one factor of the integrand.
 pub(crate) trait Expansion<I: Isa> {
+    fn new(isa: I, geometry: &Geometry<I>, medium: &MediumLanes<I>) -> Expanded<I>;
+}
+
+/// It, and where it is trusted.
+#[derive(Clone, Copy)]
+pub(crate) struct Expanded<I: Isa> {
     /// Coefficients from degree 0 on, up to a common factor.
-    fn coefficients(isa: I, geometry: &Geometry<I>, medium: &MediumLanes<I>) -> [I::Double; ORDER + 1];
-    /// The angle up to which the polynomial is trusted \[rad\].
-    fn trusted(isa: I, geometry: &Geometry<I>, medium: &MediumLanes<I>) -> I::Double;
+    pub(super) p: [I::Double; ORDER + 1],
+    /// The angle up to which the polynomial is trusted \[rad\], and its value there.
+    pub(super) theta_c: I::Double,
+    pub(super) p_c: I::V,
     /// Which lanes expand in `-theta`.
-    fn mirrored(isa: I, medium: &MediumLanes<I>) -> I::Mask;
+    pub(super) mirrored: I::Mask,
+}
+
+impl<I: Isa> Expanded<I> {
+    #[inline(always)]
+    pub(super) fn new(p: [I::Double; ORDER + 1], theta_c: I::Double, mirrored: I::Mask) -> Self {
+        Self { p, theta_c, p_c: I::V::narrow(horner_lanes(theta_c, p)), mirrored }
+    }
 }
 
 pub(crate) struct Taylor<I: Isa, E> {
@@ -75,9 +89,7 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
     fn new(isa: I, geometry: &Geometry<I>, medium: &MediumLanes<I>) -> Self {
         let c = |x| isa.splat(x);
         let g = geometry;
-        let p = E::coefficients(isa, g, medium);
-        let theta_c = E::trusted(isa, g, medium);
-        let mirrored = E::mirrored(isa, medium);
+        let Expanded { p, theta_c, p_c, mirrored } = E::new(isa, g, medium);
 
         // The ends in the order of the angle that is expanded.
         let pick = |a: I::V, b: I::V| I::V::select(mirrored, b, a);
@@ -91,17 +103,15 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
         let half = width * c(0.5);
         let middle = theta_a + half.widen();
 
-        // N and its derivative at the middle of the first piece, and N at its end, from the end where N is smaller:
-        // there both terms of N are positive.
-        let from_a = n_a.le(n_b);
-        let (n_e, s_e) = (I::V::select(from_a, n_a, n_b), I::V::select(from_a, s_a, s_b).abs());
-        let one = c(1.0);
-        let (n_m, slope_m) = cosine_at(isa, n_e, s_e, I::V::select(from_a, half, subtended - half));
-        let (n_c, slope_c) = cosine_at(isa, n_e, s_e, I::V::select(from_a, width, subtended - width));
-        let slope_m = I::V::select(from_a, slope_m, -slope_m);
-        let slope_c = I::V::select(from_a, slope_c, -slope_c);
-        let n_m = I::V::select(g.has_normal, n_m, one);
-        let slope_m = I::V::select(g.has_normal, slope_m, c(0.0));
+        // N and S at the middle of the first piece and at its end. N is concave: from the start it halves at most on the
+        // way to the middle, so that what cancels is no more than N.
+        let (sin, cos) = sin_cos_acute(isa, half);
+        let (n_m, s_m) = (n_a.mul_add(cos, -(s_a * sin)), n_a.mul_add(sin, s_a * cos));
+        let (n_c, s_c) = (n_m.mul_add(cos, -(s_m * sin)), n_m.mul_add(sin, s_m * cos));
+        let n_c = n_c.max(c(0.0));
+        // N' = -S.
+        let n_m = I::V::select(g.has_normal, n_m, c(1.0));
+        let slope_m = I::V::select(g.has_normal, -s_m, c(0.0));
         let wave = I::V::select(g.has_normal, half, c(0.0));
 
         let product = I::V::multiply(&shift::<I>(p, middle, half), &cosine_series(isa, n_m, slope_m, wave));
@@ -117,12 +127,7 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
         let three = [f_a.max(c(0.0)), product[0], f_b.max(c(0.0))];
         let quintic = quintic(isa, product[0], values, integrals);
 
-        let p_c = I::V::narrow(horner_lanes(smaller(middle + half.widen(), theta_c), p));
         let rest = subtended - width;
-        let whole = width.eq(c(0.0));
-        let n_c = I::V::select(whole, n_a, n_c.max(c(0.0)));
-        // The antiderivative grows by N, so S = -N' counted along theta.
-        let s_c = I::V::select(whole, s_a, -slope_c);
         let right_angle = c(core::f32::consts::FRAC_PI_2);
         let tan_half = tan(isa, rest.min(right_angle) * c(0.5));
         let cosines = mass_of_cosine::<I>([n_c, n_b], [s_c, -s_b], tan_half, right_angle.lt(rest));
@@ -159,7 +164,9 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
         let u = I::V::select(self.mirrored, c(1.0) - u, u);
         let total = self.mass_1 + self.mass_2;
         let target = u * total;
-        let first = target.lt(self.mass_1);
+        // Where there is no second piece, u = 1 also belongs to the first.
+        let width = self.half + self.half;
+        let first = target.lt(self.mass_1) | self.subtended.le(width);
 
         // First piece: the angle from its middle, in units of its half width.
         let share = target / self.mass_1;
@@ -188,7 +195,6 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
 
         // Second piece: from the end, or from its own start where that is near the interval's.
         let (from_c, rest) = (target - self.mass_1, total - target);
-        let width = self.half + self.half;
         let by_start = !first & from_c.lt(rest) & width.lt(self.subtended * c(0.25));
         let cosines = I::V::select(by_start, from_c, rest).max(total * c(NEAREST)) / self.p_c;
         let n_end = I::V::select(by_start, self.n_c, self.n_b);
@@ -263,50 +269,38 @@ impl<I: Isa, E> Taylor<I, E> {
     /// The density at a point whose (mirrored) angle is `theta`.
     #[inline(always)]
     fn at(&self, isa: I, geometry: &Geometry<I>, point: &Point<I>, theta: I::Double) -> Pdf<I> {
-        let p = I::V::narrow(horner_lanes(smaller(theta, self.theta_c), self.p));
+        let p = I::V::narrow(horner_lanes(theta.min(self.theta_c), self.p));
         let p_theta = p * geometry.cosine(isa, point) / (self.mass_1 + self.mass_2);
         Pdf::over_angle(p_theta, geometry.h, point.r)
     }
-}
-
-/// N and its derivative at the angle `delta` from an end where they are `n` and `s`.
-#[inline(always)]
-fn cosine_at<I: Isa>(isa: I, n: I::V, s: I::V, delta: I::V) -> (I::V, I::V) {
-    let (sin, cos) = sin_cos(isa, delta);
-    (n.mul_add(cos, s * sin), s * cos - n * sin)
 }
 
 /// `theta` of a point \[rad\], within 1.7e-8 of that of the rounded `t'` and `h`, a third of half an ulp: the logarithms
 /// of the polynomials have slopes up to 30.
 #[inline(always)]
 fn angle<I: Isa>(isa: I, t_prime: I::V, h: I::V) -> I::Double {
-    let c = |x| isa.splat_double(x);
+    let (c, d) = (|x| isa.splat(x), |x| isa.splat_double(x));
     let size = t_prime.abs();
     let (less, more) = (size.min(h), size.max(h));
-    let q = less / more;
-    // What the division left.
-    let rest = I::V::narrow(less.widen() - q.widen() * more.widen());
-    let exact_q = q.widen() + (rest / more).widen();
-    let z = exact_q * exact_q;
-    let p = horner(isa, I::V::narrow(z), ATAN).widen().mul_add(z, c(0.199_976_2)).mul_add(z, c(-0.333_332_63));
-    let atan = (exact_q * z).mul_add(p, exact_q);
-    let one = isa.splat(1.0);
-    let sign = I::V::select(t_prime.lt(isa.splat(0.0)), -one, one);
+    let one_over = c(1.0) / more;
     // Beyond 45 degrees it is the complement.
     let steep = h.lt(size);
-    let turn = I::V::select(steep, -sign, sign).widen();
-    let quarter = I::V::select(steep, sign, isa.splat(0.0)).widen();
-    quarter.mul_add(c(core::f64::consts::FRAC_PI_2), turn * atan)
+    let sign = I::V::select(t_prime.lt(c(0.0)), c(-1.0), c(1.0));
+    let less = less * I::V::select(steep, -sign, sign);
+    let quarter = I::V::select(steep, sign, c(0.0)).widen();
+    let q = (less * one_over).widen();
+    // What the rounding left.
+    let rest = less.widen() - q * more.widen();
+    let q = rest.mul_add(one_over.widen(), q);
+    let z = q * q;
+    let p = horner(isa, I::V::narrow(z), ATAN).widen().mul_add(z, d(0.199_976_2)).mul_add(z, d(-0.333_332_63));
+    let atan = (q * z).mul_add(p, q);
+    quarter.mul_add(d(core::f64::consts::FRAC_PI_2), atan)
 }
 
 /// Coefficients, highest degree first, of `(atan q / q - 1) / q^2` in `q^2` for `q` up to 1, but for the last two.
 const ATAN: [f32; 7] =
     [-0.001_602_414, 0.010_025_549, -0.029_446_354, 0.056_127_183, -0.082_897_5, 0.109_102_75, -0.142_554_63];
-
-#[inline(always)]
-pub(super) fn smaller<D: Double>(a: D, b: D) -> D {
-    -(-a).max(-b)
-}
 
 /// One division by `theta - middle`.
 #[inline(always)]
