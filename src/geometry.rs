@@ -5,7 +5,7 @@
 //! the interval or small `h`: angles are taken between two points of the ray, distances from the nearer end.
 
 use crate::scene::{FARTHEST, UNIT_TOLERANCE};
-use crate::simd::math::angle_of;
+use crate::simd::math::{angle_of, reciprocal};
 use crate::simd::{Double, Isa, Lanes, Number};
 
 /// The rays of a lane group.
@@ -219,6 +219,16 @@ impl<I: Isa> Geometry<I> {
         self.dot_of_ends().lt(isa.splat(0.0)) | (rr * isa.splat(1e-25)).lt(light)
     }
 
+    /// Which ends have less than `share` of the largest cosine, or where the interval subtends less than a right angle, of
+    /// the sum of those at the ends.
+    #[inline(always)]
+    pub(crate) fn dark_ends(&self, isa: I, share: f32) -> [I::Mask; 2] {
+        let wide = self.dot_of_ends().lt(isa.splat(0.0));
+        let size = I::V::select(wide, self.alpha.abs() + self.beta.abs(), self.a.n + self.b.n);
+        let least = size * isa.splat(share);
+        [self.a.n.lt(least), self.b.n.lt(least)]
+    }
+
     /// The angle `Theta` that the lit interval subtends at the emitter, in `(0, pi]` \[rad\].
     #[inline(always)]
     pub(crate) fn subtended(&self, isa: I) -> I::V {
@@ -311,13 +321,6 @@ impl<I: Isa> Geometry<I> {
         ((self.b.t - point.t) + self.b.t_low).max(isa.splat(0.0))
     }
 
-    /// `X = t' + r` \[m\], without cancellation: `exp(-mu_t X)` is the transmittance but for a constant.
-    #[inline(always)]
-    pub(crate) fn x(&self, isa: I, t_prime: I::V, r: I::V) -> I::V {
-        let long = r + t_prime.abs();
-        I::V::select(isa.splat(0.0).lt(t_prime), long, self.h * (self.h / long))
-    }
-
     /// What is left of the interval beyond `offset` from one end: by the length, or by `t'` where that is smaller.
     #[inline(always)]
     fn rest(&self, isa: I, offset: I::V, t_prime: I::V, far_t_prime: I::V) -> I::V {
@@ -348,17 +351,35 @@ impl<I: Isa> Geometry<I> {
         I::V::select(self.has_normal, point.m / point.r, isa.splat(1.0))
     }
 
-    /// The length of the path from `t_min` over the point to the emitter \[m\].
-    ///
-    /// The exponential multiplies an error of the optical depth by the depth, so r takes a Newton step of its root.
+    /// The length of the path from `t_min` over the point to the emitter \[m\]: the exponential multiplies an error of the
+    /// optical depth by the depth.
     #[inline(always)]
     pub(crate) fn path(&self, isa: I, point: &Point<I>) -> I::Double {
+        let (_, r) = self.exact_r(isa, point);
+        (point.exact_t_prime - self.t_prime_min) + r
+    }
+
+    /// `X = t' + r` and `r` \[m\] in f64: `exp(-mu_t X)` is the transmittance but for a constant.
+    #[inline(always)]
+    pub(crate) fn exact_x_and_r(&self, isa: I, point: &Point<I>) -> (I::Double, I::Double) {
+        let (h_squared, r) = self.exact_r(isa, point);
+        let t_prime = point.exact_t_prime;
+        let long = r + t_prime.max(-t_prime);
+        let short = h_squared * reciprocal(isa, long);
+        // Without a select of doubles: of r + t' and h^2/(r - t') the one whose t' is positive.
+        let sign = I::V::select(isa.splat(0.0).lt(point.t_prime), isa.splat(1.0), isa.splat(0.0)).widen();
+        (sign.mul_add(long - short, short), r)
+    }
+
+    /// `h^2`, and `r` by a Newton step of its root.
+    #[inline(always)]
+    fn exact_r(&self, isa: I, point: &Point<I>) -> (I::Double, I::Double) {
         let (t_prime, r) = (point.exact_t_prime, point.r.widen());
         let least = self.least_h.widen();
         let h_squared = self.foot_squared.max(least * least);
         let residual = I::V::narrow(t_prime.mul_add(t_prime, h_squared) - r * r);
         let step = residual * isa.splat(0.5) / point.r;
-        (t_prime - self.t_prime_min) + (r + step.widen())
+        (h_squared, r + step.widen())
     }
 }
 

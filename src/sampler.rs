@@ -115,11 +115,10 @@ impl Sampler {
     /// The density at given distances `t`, for multiple importance sampling \[1/m\]; 0 outside the sampled interval.
     ///
     /// It is the density of what [`sample`](Self::sample) returns, taken at `t` as rounded: where `t` resolves `r` the
-    /// two agree within 1e-5, next to the emitter that of `sample` is the exact one. Relative error at a given `t`: below
-    /// 8 x 2^-24 for 99 % of rays (10 for the Taylor densities, 16 for the product densities and 48 at their ends), 64 (128, 256)
-    /// for 99.99 %;
-    /// below a thousandth of `1/(t_b - t_a)`, the mean over the sampled interval, relative to that. A density below f32's
-    /// range is 0.
+    /// two agree within 1e-5, next to the emitter that of `sample` is the exact one. Error at a given `t`: below 8 ulp for
+    /// 99 % of rays, 64 for 99.99 %; of product densities at the very ends of the interval, where they may vanish, 14 and 128.
+    /// A density of less than a thousandth of `1/(t_b - t_a)`, its mean over the sampled interval, has errors in ulp of that;
+    /// one below f32's range is 0.
     ///
     /// [`Counts::sampled`] counts the rays that have a sample, whether or not it could be at `t`. A NaN in `t` makes
     /// its ray invalid.

@@ -154,9 +154,7 @@ fn sample_pdf_and_evaluate_agree_at_the_sample() {
             let [t, pdf_of_sample, weight, r] = drawn.row(i).map(f64::from);
             let [pdf, integrand] = [pdf[i], integrand[i]].map(f64::from);
             let reach = 2.0 * ulp(drawn.t[i].max(drawn.r[i]));
-            // At the knots of a product density the transmittance has the relative error of the optical depth.
-            let knots = if strategy.has_radiance() { 1e-4 } else { 0.0 };
-            let fraction = 1e-5 + knots + scene.mu_t() * reach;
+            let fraction = 1e-5 + scene.mu_t() * reach;
             let check = |what: &str, value: f64, expected: f64, vanishing: f64, f: &dyn Fn(f64) -> f64| {
                 let (low, high) = range_around(drawn.t[i], reach, f);
                 let allowed = fraction * high + (high - low) + vanishing + f64::from(f32::MIN_POSITIVE);

@@ -17,8 +17,13 @@ mod chosen {
     pub(super) const EQUAL: f64 = 0.65;
     /// How far from an end the integrand is looked at in its stead, in widths of the segment.
     pub(super) const INSIDE: f64 = 0.125;
-    /// The least share of what is seen there that the line keeps at an end, and that between the ends.
-    pub(super) const LEAST_AT_END: f64 = 0.0625;
+    /// An end with less than this share of the cosine is dark. The line then counts so much of the next knot against what
+    /// is seen there.
+    pub(super) const DARK: f64 = 1.0 / 4096.0;
+    pub(super) const NEXT_TO_DARK: f64 = 0.25;
+    /// The least share of what is seen there that the line keeps at a dark end, at any other, and between the ends.
+    pub(super) const LEAST_IN_THE_DARK: f64 = 0.0625;
+    pub(super) const LEAST_AT_END: f64 = 0.25;
     pub(super) const LEAST: f64 = 0.5;
     /// The largest `|g|` that the density is made for: at 1 there would be nothing between the peaks.
     pub(super) const LARGEST_G: f64 = 1.0 - 1.0 / 4096.0;
@@ -51,7 +56,8 @@ impl Product {
             let transmittance = (-scene.mu_t * warp.y(at)).exp();
             transmittance * over_v(&arc, &warp, g, at)
         };
-        let mut f = lines(&at, integrand);
+        let dark = dark(scene, &arc);
+        let mut f = lines(&at, dark, integrand);
         let sum: f64 = f.iter().sum();
         if !(sum > 0.0 && sum.is_finite()) {
             f.fill(1.0);
@@ -127,6 +133,13 @@ fn scale(arc: &Arc, mu_t: f64, g: f64) -> f64 {
     (1.0 / (chosen::EXTINCTION * mu_t + 1.0 / reach)).max(1e-18)
 }
 
+/// Which ends are dark, as compared with the largest cosine or, below a right angle, with the sum of those at the ends.
+fn dark(scene: &Scene, arc: &Arc) -> [bool; 2] {
+    let [n_a, n_b] = [arc.cosine(arc.start()), arc.cosine(arc.end())];
+    let size = if arc.width() > 0.5 * PI { scene.alpha().abs() + scene.beta().abs() } else { n_a + n_b };
+    [n_a, n_b].map(|n| n < chosen::DARK * size)
+}
+
 /// Where the knots are, rounded to f32: so the kernel has them exactly.
 fn knots(count: usize) -> Vec<Variable> {
     let chebyshev = |s: f64| 0.5 * (1.0 - (PI * s).cos());
@@ -140,8 +153,9 @@ fn knots(count: usize) -> Vec<Variable> {
 ///
 /// The chords of a curve that bends upwards lie above it, by a twelfth of `width^2 f''` in the mean: lowered by that much,
 /// as least squares would have them, they leave a sixth of the variance. At an end, where `N` or `T` may vanish over no
-/// length at all, `f` says nothing of its segment; what does is a line through a place inside.
-fn lines(knots: &[Variable], f: impl Fn(Variable) -> f64) -> Vec<f64> {
+/// length at all, `f` says nothing of its segment; what does is a line through a place inside. Where `N` vanishes that
+/// line ends at about 0, as a difference without digits: it is drawn lower there, so that the least share stands.
+fn lines(knots: &[Variable], dark: [bool; 2], f: impl Fn(Variable) -> f64) -> Vec<f64> {
     let last = knots.len() - 1;
     let (first, to_1) = (chosen::INSIDE * knots[1].v, chosen::INSIDE * knots[last - 1].to_1);
     let mut seen = knots.to_vec();
@@ -149,9 +163,11 @@ fn lines(knots: &[Variable], f: impl Fn(Variable) -> f64) -> Vec<f64> {
     seen[last] = Variable { v: 1.0 - to_1, to_1 };
     let f: Vec<f64> = seen.iter().map(|&at| f(at)).collect();
 
-    let extended = |end: usize, next: usize| {
+    let extended = |end: usize, next: usize, dark: bool| {
         let beyond = chosen::INSIDE / (1.0 - chosen::INSIDE);
-        (f[end] - beyond * (f[next] - f[end])).max(chosen::LEAST_AT_END * f[end])
+        let (of_next, least) =
+            if dark { (chosen::NEXT_TO_DARK, chosen::LEAST_IN_THE_DARK) } else { (beyond, chosen::LEAST_AT_END) };
+        ((1.0 + beyond) * f[end] - of_next * f[next]).max(least * f[end])
     };
     let lowered = |i: usize| {
         let slope = |i: usize, j: usize| (f[j] - f[i]) / (seen[j].v - seen[i].v);
@@ -160,7 +176,7 @@ fn lines(knots: &[Variable], f: impl Fn(Variable) -> f64) -> Vec<f64> {
         (f[i] - second * (lower * lower + upper * upper) / 24.0).max(chosen::LEAST * f[i])
     };
     let inner = (1..last).map(lowered);
-    std::iter::once(extended(0, 1)).chain(inner).chain([extended(last, last - 1)]).collect()
+    std::iter::once(extended(0, 1, dark[0])).chain(inner).chain([extended(last, last - 1, dark[1])]).collect()
 }
 
 /// `rho N dtheta/dv`.

@@ -12,7 +12,7 @@
 use crate::density::{Density, Drawn, Pdf};
 use crate::geometry::{End, Geometry, Point};
 use crate::integrand::{MediumLanes, transmittance};
-use crate::simd::math::one_minus_exp;
+use crate::simd::math::{one_minus_exp, reciprocal};
 use crate::simd::{Isa, Lanes, Number, none};
 
 /// `0.65 x + 0.175 (1 - cos(pi x))` at `x = k/16`; with fewer knots every second, fourth or eighth.
@@ -39,7 +39,13 @@ const KNOTS: [f32; 17] = [
 /// How far from an end the integrand is looked at in its stead, in widths of the segment.
 const INSIDE: f32 = 0.125;
 /// The least share of what is seen there that the line keeps at an end.
-const LEAST_AT_END: f32 = 0.0625;
+const LEAST_AT_END: f32 = 0.25;
+/// An end with less than this share of the cosine is dark.
+const DARK: f32 = 1.0 / 4096.0;
+/// So much of the next knot the line counts against what is seen inside a dark end: more than a straight line would, which
+/// ends at about 0 and is a difference without digits. The least share stands there.
+const NEXT_TO_DARK: f32 = 0.25;
+const LEAST_IN_THE_DARK: f32 = 0.0625;
 
 /// The same between the ends.
 const LEAST: f32 = 0.5;
@@ -57,10 +63,9 @@ pub(crate) struct Product<I: Isa, const K: usize> {
     /// `h/X` there.
     h_x_a: I::V,
     h_x_b: I::V,
-    /// The scale of the warp, `Y` at the end, and `e`; what is divided by.
+    /// The scale of the warp, and `e`; what is divided by.
     y_c: I::V,
     inv_y_c: I::V,
-    y_b: I::V,
     e: I::V,
     inv_e: I::V,
     /// `1/(1 + e)`.
@@ -127,11 +132,12 @@ impl<I: Isa, const K: usize> Product<I, K> {
 
     /// The line's values at the knots, of the integrand's where it is looked at.
     #[inline(always)]
-    fn line(isa: I, seen: &[I::V; K]) -> [I::V; K] {
+    fn line(isa: I, geometry: &Geometry<I>, seen: &[I::V; K]) -> [I::V; K] {
         let c = |x| isa.splat(x);
         let mut f = *seen;
-        f[0] = Self::extended(isa, seen[0], seen[1]);
-        f[K - 1] = Self::extended(isa, seen[K - 1], seen[K - 2]);
+        let [dark_a, dark_b] = geometry.dark_ends(isa, DARK);
+        f[0] = Self::extended(isa, dark_a, seen[0], seen[1]);
+        f[K - 1] = Self::extended(isa, dark_b, seen[K - 1], seen[K - 2]);
         let mut i = 1;
         while i + 1 < K {
             let [below, above] = Self::BEND[i];
@@ -143,12 +149,14 @@ impl<I: Isa, const K: usize> Product<I, K> {
         f
     }
 
-    /// The line's value at an end, straight on from the next knot through what is seen inside.
+    /// The line's value at an end, straight on from the next knot through what is seen inside, or lower.
     #[inline(always)]
-    fn extended(isa: I, seen: I::V, next: I::V) -> I::V {
+    fn extended(isa: I, dark: I::Mask, seen: I::V, next: I::V) -> I::V {
+        let c = |x| isa.splat(x);
         let beyond = INSIDE / (1.0 - INSIDE);
-        let end = next.mul_add(isa.splat(-beyond), seen * isa.splat(1.0 + beyond));
-        end.max(isa.splat(LEAST_AT_END) * seen)
+        let of_next = I::V::select(dark, c(NEXT_TO_DARK), c(beyond));
+        let least = I::V::select(dark, c(LEAST_IN_THE_DARK), c(LEAST_AT_END));
+        (-next).mul_add(of_next, seen * c(1.0 + beyond)).max(least * seen)
     }
 
     /// The segment for which `beyond(i, C_i)` holds for all `i` up to its start, where `C_i` is the CDF at knot `i`.
@@ -251,7 +259,7 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
             seen[k] = transmittance * numerator / (s_2 * (s_1 * s_2).sqrt());
             k += 1;
         }
-        let mut f = Self::line(isa, &seen);
+        let mut f = Self::line(isa, g, &seen);
 
         let mut mass = c(0.0);
         let mut k = 1;
@@ -269,20 +277,7 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
         }
         // f stands for the integrand over v times this.
         let unit = scale * scale * (w_0 * inv_y_c) * I::V::select(g.has_normal, c(4.0) * scale, c(2.0));
-        Self {
-            x_a,
-            x_b,
-            h_x_a,
-            h_x_b,
-            y_c,
-            inv_y_c,
-            y_b,
-            e,
-            inv_e,
-            w_0,
-            f,
-            mass: I::V::select(usable, mass, c(0.0)) * unit,
-        }
+        Self { x_a, x_b, h_x_a, h_x_b, y_c, inv_y_c, e, inv_e, w_0, f, mass: I::V::select(usable, mass, c(0.0)) * unit }
     }
 
     #[inline(always)]
@@ -326,23 +321,32 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
         geometry.lit & geometry.bright(isa)
     }
 
+    /// In f64, from the geometry to the place between two knots and back: a dozen roundings, which the slope of the density
+    /// multiplies, would be most of the error.
     #[inline(always)]
     fn pdf(&self, isa: I, geometry: &Geometry<I>, point: &Point<I>) -> Pdf<I> {
         let c = |x| isa.splat(x);
-        let (g, one) = (geometry, c(1.0));
-        let x = g.x(isa, point.t_prime, point.r);
-        let y = (g.way_from_a(isa, point) * ((self.x_a + x) / (g.a.r + point.r))).min(self.y_b);
-        let to_y_b = g.way_to_b(isa, point) * ((self.x_b + x) / (g.b.r + point.r));
-        let s = self.y_c / (y + self.y_c);
-        let v = (y * ((one + self.e) * self.inv_y_c) * s).min(one);
-        let rest = (to_y_b * (self.e * s) * self.inv_y_c).min(one);
-        let (segment, _) = self.segment(isa, |i, _| c(Self::V[i]).le(v));
+        let g = geometry;
+        let (x, r) = g.exact_x_and_r(isa, point);
+        let over_a = reciprocal(isa, g.a.r.widen() + r);
+        let over_b = reciprocal(isa, g.b.r.widen() + r);
+        let y = g.way_from_a(isa, point).widen() * ((self.x_a.widen() + x) * over_a);
+        let to_y_b = g.way_to_b(isa, point).widen() * ((self.x_b.widen() + x) * over_b);
+        let (y_c, e) = (self.y_c.widen(), self.e.widen());
+        let over_sum = reciprocal(isa, y + y_c);
+        let turn = (e + isa.splat_double(1.0)) * over_sum;
+        let v = y * turn;
+        let rest = to_y_b * (e * over_sum);
+        let (segment, _) = self.segment(isa, |i, _| c(Self::V[i]).le(I::V::narrow(v)));
         // By v or by 1 - v, whichever has the smaller error: a segment is narrow, and the density may vanish within it.
-        let near_0 = v.lt(rest);
-        let v_1 = segment.v_0 + segment.width;
-        let from_0 = I::V::select(near_0, v - segment.v_0, (one - segment.v_0) - rest).max(c(0.0));
-        let to_1 = I::V::select(near_0, v_1 - v, rest - (one - v_1)).max(c(0.0));
-        let p_v = segment.f_1.mul_add(from_0, segment.f_0 * to_1) / segment.width;
-        self.pdf_over_v(isa, p_v, s, x, point.r)
+        let near_0 = I::V::narrow(v - rest).lt(c(0.0));
+        let (v_0, v_1) = (segment.v_0, segment.v_0 + segment.width);
+        let (left, right) = (c(1.0) - v_0, c(1.0) - v_1);
+        let from_0 = I::V::select(near_0, I::V::narrow(v - v_0.widen()), I::V::narrow(left.widen() - rest));
+        let to_1 = I::V::select(near_0, I::V::narrow(v_1.widen() - v), I::V::narrow(rest - right.widen()));
+        let p_v = segment.f_1.mul_add(from_0.max(c(0.0)), segment.f_0 * to_1.max(c(0.0))) / segment.width;
+        // dv/dY = Y_c (1 + e)/(Y + Y_c)^2, and dY/dt = X/r.
+        let over_y = (p_v.widen() * x) * (turn * (y_c * over_sum));
+        Pdf { over_t: I::V::narrow(over_y * reciprocal(isa, r)), times_r2: I::V::narrow(over_y * r) }
     }
 }

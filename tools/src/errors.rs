@@ -10,7 +10,7 @@ const BATCH: usize = 1 << 14;
 /// Every how many rays the weight and the floors are looked at, which takes the oracle's inverse many times.
 const WEIGHED: usize = 16;
 /// What counts as vanishing: a density below this share of its mean over the interval, `1/(t_b - t_a)`, and an N below
-/// this value. There errors are relative to that share, or to that of the integrand with this N.
+/// this value. There errors are in ulp of that share, or of the integrand with this N.
 const VANISHING: f64 = 1e-3;
 /// The change of `u` that the errors of `r` and of the weight allow for: what the CDF is promised to.
 const VARIATE: f64 = 1.0 / (1 << 20) as f64;
@@ -53,7 +53,7 @@ pub struct Errors {
     /// What exact arithmetic would have for `offset` from the geometry rounded to f32 once, on every 16th ray; `h` as for
     /// `integrand`.
     pub offset_floor: Vec<f64>,
-    /// The pdf at the returned `t`, relative.
+    /// The pdf at the returned `t`, in ulp.
     pub pdf: Vec<f64>,
     /// What exact arithmetic would have for `pdf` from the geometry rounded to f32 once, on the same rays.
     pub pdf_floor: Vec<f64>,
@@ -335,9 +335,9 @@ fn offset_error(scene: &Scene, strategy: Strategy, ends: [f64; 2], u: f64) -> Op
 fn pdf_error(scene: &Scene, strategy: Strategy, t: f64, pdf: f64) -> Option<f64> {
     let (t_a, t_b) = if strategy == Strategy::Transmittance { scene.interval() } else { scene.lit()? };
     let exact = scene.pdf(strategy, t);
-    let size = exact.max(VANISHING / (t_b - t_a)).max(f32::MIN_POSITIVE.into());
+    let size = exact.max(VANISHING / (t_b - t_a));
     // Outside for rounding alone.
-    (t_a..=t_b).contains(&t).then(|| (pdf - exact).abs() / size)
+    (t_a..=t_b).contains(&t).then(|| (pdf - exact).abs() / ulp(size))
 }
 
 /// As for the weight: where `t` cannot tell, `r` is that of a variate near `u`.

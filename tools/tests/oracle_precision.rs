@@ -21,7 +21,9 @@ const SCENES: usize = 1000;
 const INTEGRATED: usize = 50;
 /// The largest error, relative; that of the CDF absolute.
 const BOUND: f64 = 1e-12;
-/// That of the product densities' pdf past a near emitter: seen 5.6e-8 and 2.5e-11, in the worst scene of each family.
+/// That of the product densities' pdf past a near emitter: seen 5.6e-8 and 2.5e-11, in the worst scene of each family. An
+/// emitter 1.2e-6 m beside a ray and 96 m along it leaves `t'` seven digits in f64, and it is not moved by one ulp, as the
+/// excuse has it, but at every knot and at the point by one of its own.
 const BOUND_OF_PRODUCT: f64 = 1e-7;
 /// Of smaller numbers f64 has not all digits.
 const TINY: f64 = 1e-290;

@@ -10,8 +10,12 @@ pub(super) const COUNTS: [usize; 4] = [3, 5, 9, 17];
 
 /// How far inside the ends the integrand is looked at, in widths of the segment.
 const INSIDE: f64 = 0.125;
-/// The least share of what is seen that the line keeps at the ends and between them.
-const LEAST: [f64; 2] = [0.0625, 0.5];
+/// How much of the next knot the line counts against what is seen there: where it goes straight on, and at a dark end.
+const OF_NEXT: [f64; 2] = [INSIDE / (1.0 - INSIDE), 0.25];
+/// The least share of what is seen there that it keeps.
+const LEAST_AT_END: [f64; 2] = [0.25, 0.0625];
+/// The same between the ends.
+const LEAST: f64 = 0.5;
 
 /// `X = t' + r`, and with it `v`: `(1 + e) Y/(Y + Y_c)` of `Y = X - X_a`.
 pub(super) struct Product<'a> {
@@ -20,6 +24,8 @@ pub(super) struct Product<'a> {
     y_b: Big,
     y_c: Big,
     g: Big,
+    /// Whether the ends have less than a 4096th of the cosine.
+    dark: [bool; 2],
 }
 
 impl<'a> Product<'a> {
@@ -29,7 +35,7 @@ impl<'a> Product<'a> {
         let (x_a, x_b) = (x(scene, t_a), x(scene, t_b));
         let reach = big(1.5) * &x_a + big(1.25) * &scene.h * (big(1.0) - &g) / (big(1.0) + &g);
         let y_c = (big(1.0) / (big(0.45) * &scene.mu_t + big(1.0) / reach)).max(big(1e-18));
-        Self { scene, y_b: x_b - &x_a, x_a, y_c, g }
+        Self { scene, y_b: x_b - &x_a, x_a, y_c, g, dark: dark(scene, [t_a, t_b]) }
     }
 
     /// The pdf and the CDF at `t` with so many knots.
@@ -55,7 +61,7 @@ impl<'a> Product<'a> {
 
     /// `T rho N dtheta/dv` but for constants.
     fn integrand(&self, v: &Big) -> Big {
-        let Self { scene, x_a, y_b, y_c, g } = self;
+        let Self { scene, x_a, y_b, y_c, g, dark: _ } = self;
         let rest = y_c / y_b + big(1.0) - v;
         let y = y_c * v / &rest;
         let x = x_a + &y;
@@ -68,7 +74,7 @@ impl<'a> Product<'a> {
     }
 
     /// Below the integrand by a twenty-fourth of its second difference times the squares of the widths; at the ends
-    /// straight on from the next knot through the place inside.
+    /// straight on from the next knot through the place inside, or lower.
     fn line(&self, v: &[Big]) -> Vec<Big> {
         let (zero, last) = (big(0.0), v.len() - 1);
         let mut seen = v.to_vec();
@@ -78,20 +84,32 @@ impl<'a> Product<'a> {
         let slope = |i: usize, j: usize| (&f[j] - &f[i]) / (&seen[j] - &seen[i]);
         let line = |i: usize| {
             if i == 0 || i == last {
-                let next = if i == 0 { 1 } else { last - 1 };
-                let end = &f[i] + slope(i, next) * (&v[i] - &seen[i]);
-                return end.max(big(LEAST[0]) * &f[i]);
+                let (dark, next) = if i == 0 { (self.dark[0], 1) } else { (self.dark[1], last - 1) };
+                let beyond = big(1.0) / (big(1.0) - big(INSIDE));
+                let end = beyond * &f[i] - big(OF_NEXT[usize::from(dark)]) * &f[next];
+                return end.max(big(LEAST_AT_END[usize::from(dark)]) * &f[i]);
             }
             let second = big(2.0) * (slope(i, i + 1) - slope(i - 1, i)) / (&seen[i + 1] - &seen[i - 1]);
             let [lower, upper] = [&v[i] - &v[i - 1], &v[i + 1] - &v[i]];
             let lowered = &f[i] - second * (&lower * &lower + &upper * &upper) / big(24.0);
-            lowered.max(big(LEAST[1]) * &f[i])
+            lowered.max(big(LEAST) * &f[i])
         };
         let line: Vec<Big> = (0..=last).map(line).collect();
         // Nothing to go by, in f64: uniform.
         let sum = line.iter().fold(zero.clone(), |sum, f| sum + f);
         if sum > zero { line } else { vec![big(1.0); v.len()] }
     }
+}
+
+/// Compared with the largest cosine, or below a right angle with the sum of those at the ends.
+fn dark(scene: &Scene, ends: [&Big; 2]) -> [bool; 2] {
+    let Some([alpha_h, beta]) = &scene.normal else { return [false; 2] };
+    let t_prime = ends.map(|t| t - &scene.t_h);
+    let dot = &scene.h * &scene.h + &t_prime[0] * &t_prime[1];
+    let n = [0, 1].map(|end| (alpha_h + beta * &t_prime[end]) / scene.r(ends[end]));
+    let abs = |x: Big| if x < big(0.0) { -x } else { x };
+    let size = if dot < big(0.0) { abs(alpha_h / &scene.h) + abs(beta.clone()) } else { &n[0] + &n[1] };
+    n.map(|n| n < big(1.0 / 4096.0) * &size)
 }
 
 fn x(scene: &Scene, t: &Big) -> Big {
