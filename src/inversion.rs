@@ -8,7 +8,7 @@ const NEWTON_STEPS: usize = 8;
 const STEPS: usize = 24;
 
 /// How much of a step that bends little may be left after it, times the square of the step.
-const LEFT: f32 = 8.0;
+const LEFT: f32 = 16384.0;
 
 /// Where an increasing function takes a value.
 pub(crate) struct Root<I: Isa> {

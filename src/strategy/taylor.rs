@@ -15,7 +15,7 @@ use crate::density::{Density, Drawn, Pdf};
 use crate::geometry::{Geometry, Point};
 use crate::integrand::MediumLanes;
 use crate::inversion::{At, solve};
-use crate::simd::math::{SIN, horner, horner_lanes, sin_cos_acute, tan};
+use crate::simd::math::{SIN, horner, horner_lanes, sin_cos, tan};
 use crate::simd::{Double, Isa, Lanes, Number};
 use core::marker::PhantomData;
 
@@ -105,7 +105,7 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
 
         // N and S at the middle of the first piece and at its end. N is concave: from the start it halves at most on the
         // way to the middle, so that what cancels is no more than N.
-        let (sin, cos) = sin_cos_acute(isa, half);
+        let (sin, cos) = sin_cos(isa, half);
         let (n_m, s_m) = (n_a.mul_add(cos, -(s_a * sin)), n_a.mul_add(sin, s_a * cos));
         let (n_c, s_c) = (n_m.mul_add(cos, -(s_m * sin)), n_m.mul_add(sin, s_m * cos));
         let n_c = n_c.max(c(0.0));
@@ -164,15 +164,17 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
         let u = I::V::select(self.mirrored, c(1.0) - u, u);
         let total = self.mass_1 + self.mass_2;
         let target = u * total;
-        // Where there is no second piece, u = 1 also belongs to the first.
+        // Where there is no second piece, u = 1 is the end of the first.
         let width = self.half + self.half;
-        let first = target.lt(self.mass_1) | self.subtended.le(width);
+        let below = target.lt(self.mass_1);
+        let first = below | self.subtended.le(width);
 
         // First piece: the angle from its middle, in units of its half width.
         let share = target / self.mass_1;
         let value = share.mul_add(self.scale, self.below);
         let start = self.first_guess(isa, share, value);
-        let wanted = first & g.lit & g.valid;
+        let start = I::V::select(below, start, c(1.0));
+        let wanted = below & g.lit & g.valid;
         let root = solve(
             isa,
             #[inline(always)]
@@ -251,7 +253,8 @@ impl<I: Isa, E> Taylor<I, E> {
             let q = a_5.mul_add(x, a_4).mul_add(x, a_3).mul_add(x, a_2).mul_add(x, f_m);
             let [b_4, b_3, b_2, b_1] = [a_5 * c(5.0), a_4 * c(4.0), a_3 * c(3.0), a_2 + a_2];
             let slope = b_4.mul_add(x, b_3).mul_add(x, b_2).mul_add(x, b_1).mul_add(x, f_m);
-            x = x - x.mul_add(q, -value) / slope;
+            // Where the density vanishes a step would go anywhere.
+            x = x - x.mul_add(q, -value) / slope.max(self.scale * c(1e-4));
             x = x.max(c(-1.0)).min(c(1.0));
             step += 1;
         }
@@ -341,7 +344,7 @@ fn shift<I: Isa>(mut p: [I::Double; ORDER + 1], middle: I::Double, half: I::V) -
 
 /// Coefficients, highest degree first, of `(cos y - 1) / y^2` in `y^2`, for `|y| <= pi/2`: with an error of 5.3e-8 of
 /// the cosine, of which an integral keeps less.
-const COS: [f32; 4] = [2.319_438_7e-5, -1.385_592_7e-3, 4.166_399e-2, -0.499_999_32];
+const COS: [f32; 4] = [2.319_438_7e-5, -1.385_592_7e-3, 4.166_399e-2, -0.499_999_3];
 
 /// The coefficients of `n cos(wave x) + slope sin(wave x)` for `|x| <= 1`, `wave <= pi/2`.
 #[inline(always)]
