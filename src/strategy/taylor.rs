@@ -30,7 +30,7 @@ const PRODUCT_ORDER: usize = ORDER + COSINE_ORDER;
 
 /// A Taylor polynomial of one factor of the integrand.
 pub(crate) trait Expansion<I: Isa> {
-    fn new(isa: I, geometry: &Geometry<I>, medium: &MediumLanes<I>) -> Expanded<I>;
+    fn expand(isa: I, geometry: &Geometry<I>, medium: &MediumLanes<I>) -> Expanded<I>;
 }
 
 /// It, and where it is trusted.
@@ -89,7 +89,7 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
     fn new(isa: I, geometry: &Geometry<I>, medium: &MediumLanes<I>) -> Self {
         let c = |x| isa.splat(x);
         let g = geometry;
-        let Expanded { p, theta_c, p_c, mirrored } = E::new(isa, g, medium);
+        let Expanded { p, theta_c, p_c, mirrored } = E::expand(isa, g, medium);
 
         // The ends in the order of the angle that is expanded.
         let pick = |a: I::V, b: I::V| I::V::select(mirrored, b, a);

@@ -10,7 +10,7 @@ pub(crate) struct OfPhase;
 
 impl<I: Isa> Expansion<I> for OfPhase {
     #[inline(always)]
-    fn new(_: I, _: &Geometry<I>, medium: &MediumLanes<I>) -> Expanded<I> {
+    fn expand(_: I, _: &Geometry<I>, medium: &MediumLanes<I>) -> Expanded<I> {
         medium.phase
     }
 }

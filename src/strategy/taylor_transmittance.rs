@@ -14,7 +14,7 @@ const THICKEST: f64 = 32.0;
 
 impl<I: Isa> Expansion<I> for OfTransmittance {
     #[inline(always)]
-    fn new(isa: I, geometry: &Geometry<I>, medium: &MediumLanes<I>) -> Expanded<I> {
+    fn expand(isa: I, geometry: &Geometry<I>, medium: &MediumLanes<I>) -> Expanded<I> {
         let m = (medium.mu_t.widen() * geometry.h.widen()).min(isa.splat_double(THICKEST));
         let p = [
             isa.splat_double(1.0),
