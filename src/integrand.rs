@@ -3,6 +3,7 @@
 use crate::geometry::{Geometry, Point};
 use crate::simd::math::exp;
 use crate::simd::{Isa, Lanes, Number};
+use crate::strategy::Expanded;
 
 /// The media of a lane group.
 #[derive(Clone, Copy)]
@@ -10,6 +11,8 @@ pub(crate) struct MediumLanes<I: Isa> {
     pub(crate) mu_s: I::V,
     pub(crate) mu_t: I::V,
     pub(crate) g: I::V,
+    /// Of the medium alone: where all rays have the same it is expanded once for all.
+    pub(crate) phase: Expanded<I>,
     pub(crate) valid: I::Mask,
 }
 
@@ -18,7 +21,7 @@ impl<I: Isa> MediumLanes<I> {
     pub(crate) fn new(isa: I, mu_a: I::V, mu_s: I::V, g: I::V) -> Self {
         let (zero, mu_t) = (isa.splat(0.0), mu_a + mu_s);
         let valid = zero.le(mu_a) & zero.le(mu_s) & mu_t.le(isa.splat(f32::MAX)) & g.abs().le(isa.splat(1.0));
-        Self { mu_s, mu_t, g, valid }
+        Self { mu_s, mu_t, g, phase: Expanded::of_phase(isa, g), valid }
     }
 }
 

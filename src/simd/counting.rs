@@ -147,6 +147,9 @@ impl Lanes for Counted<f32> {
 }
 
 impl Double for Counted<f64> {
+    fn min(self, o: Self) -> Self {
+        Self(Double::min(self.0, o.0))
+    }
     fn max(self, o: Self) -> Self {
         Self(Double::max(self.0, o.0))
     }

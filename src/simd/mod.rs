@@ -61,10 +61,38 @@ pub(crate) trait Lanes: Number + Div<Output = Self> {
     fn widen(self) -> Self::Double;
     /// Rounded to nearest.
     fn narrow(d: Self::Double) -> Self;
+
+    /// The coefficients of the product of two polynomials, from degree 0 on; `R = P + Q - 1`, `P <= Q`.
+    ///
+    /// At any time only `P` sums are open: all of them at once do not fit the registers.
+    #[inline(always)]
+    fn multiply<const P: usize, const Q: usize, const R: usize>(p: &[Self; P], q: &[Self; Q]) -> [Self; R] {
+        let mut open = *p;
+        let mut product = [p[0]; R];
+        let mut k = 0;
+        while k < Q {
+            let mut i = 0;
+            while i < P {
+                // What is open for degree k + i, but for the highest, which is new.
+                let term = p[i] * q[k];
+                open[i] = if k == 0 || i == P - 1 { term } else { p[i].mul_add(q[k], open[i + 1]) };
+                i += 1;
+            }
+            product[k] = open[0];
+            k += 1;
+        }
+        let mut i = 1;
+        while i < P {
+            product[Q - 1 + i] = open[i];
+            i += 1;
+        }
+        product
+    }
 }
 
 /// The double-precision companion of a lane group: geometry is computed in it and rounded once.
 pub(crate) trait Double: Number {
+    fn min(self, o: Self) -> Self;
     fn max(self, o: Self) -> Self;
 }
 

@@ -45,6 +45,10 @@ impl<T: Number> Number for Pair<T> {
 
 impl<D: Double> Double for Pair<D> {
     #[inline(always)]
+    fn min(self, o: Self) -> Self {
+        Self(self.0.min(o.0), self.1.min(o.1))
+    }
+    #[inline(always)]
     fn max(self, o: Self) -> Self {
         Self(self.0.max(o.0), self.1.max(o.1))
     }
@@ -108,4 +112,31 @@ impl<V: Lanes> Lanes for Pair<V> {
     fn narrow(d: Self::Double) -> Self {
         Self(V::narrow(d.0), V::narrow(d.1))
     }
+    // One of the two and then the other: the factors of both do not fit the registers either.
+    #[inline(always)]
+    fn multiply<const P: usize, const Q: usize, const R: usize>(p: &[Self; P], q: &[Self; Q]) -> [Self; R] {
+        let (p_0, p_1) = apart(p);
+        let (q_0, q_1) = apart(q);
+        let (low, high): ([V; R], [V; R]) = (V::multiply(&p_0, &q_0), V::multiply(&p_1, &q_1));
+        let mut product = [Self(low[0], high[0]); R];
+        let mut k = 1;
+        while k < R {
+            product[k] = Self(low[k], high[k]);
+            k += 1;
+        }
+        product
+    }
+}
+
+/// The firsts and the seconds.
+#[inline(always)]
+fn apart<T: Copy, const K: usize>(pairs: &[Pair<T>; K]) -> ([T; K], [T; K]) {
+    let (mut low, mut high) = ([pairs[0].0; K], [pairs[0].1; K]);
+    let mut k = 1;
+    while k < K {
+        low[k] = pairs[k].0;
+        high[k] = pairs[k].1;
+        k += 1;
+    }
+    (low, high)
 }

@@ -126,6 +126,10 @@ impl Number for f64x4 {
 
 impl Double for f64x4 {
     #[inline(always)]
+    fn min(self, o: Self) -> Self {
+        self.fast_min(o)
+    }
+    #[inline(always)]
     fn max(self, o: Self) -> Self {
         self.fast_max(o)
     }

@@ -115,6 +115,10 @@ impl Number for f64 {
 
 impl Double for f64 {
     #[inline(always)]
+    fn min(self, o: Self) -> Self {
+        if self < o { self } else { o }
+    }
+    #[inline(always)]
     fn max(self, o: Self) -> Self {
         if self > o { self } else { o }
     }

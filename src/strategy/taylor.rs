@@ -14,26 +14,42 @@ use super::point_normal::{NEAREST, mass_of_cosine, tan_half_at_mass};
 use crate::density::{Density, Drawn, Pdf};
 use crate::geometry::{Geometry, Point};
 use crate::integrand::MediumLanes;
-use crate::inversion::solve;
-use crate::simd::math::{COS, SIN, horner, horner_lanes, sin_cos, tan};
+use crate::inversion::{At, solve};
+use crate::simd::math::{SIN, horner, horner_lanes, sin_cos, tan};
 use crate::simd::{Double, Isa, Lanes, Number};
 use core::marker::PhantomData;
 
 /// The order of the expansions.
 pub(crate) const ORDER: usize = 6;
 /// The order of the local polynomial of N.
-const COSINE_ORDER: usize = 10;
+const COSINE_ORDER: usize = 9;
+/// Steps of Newton's method for the quintic that starts the iteration.
+const QUINTIC_STEPS: usize = 2;
 /// The order of the product.
 const PRODUCT_ORDER: usize = ORDER + COSINE_ORDER;
 
 /// A Taylor polynomial of one factor of the integrand.
 pub(crate) trait Expansion<I: Isa> {
+    fn expand(isa: I, geometry: &Geometry<I>, medium: &MediumLanes<I>) -> Expanded<I>;
+}
+
+/// It, and where it is trusted.
+#[derive(Clone, Copy)]
+pub(crate) struct Expanded<I: Isa> {
     /// Coefficients from degree 0 on, up to a common factor.
-    fn coefficients(isa: I, geometry: &Geometry<I>, medium: &MediumLanes<I>) -> [I::Double; ORDER + 1];
-    /// The angle up to which the polynomial is trusted \[rad\].
-    fn trusted(isa: I, geometry: &Geometry<I>, medium: &MediumLanes<I>) -> I::Double;
+    pub(super) p: [I::Double; ORDER + 1],
+    /// The angle up to which the polynomial is trusted \[rad\], and its value there.
+    pub(super) theta_c: I::Double,
+    pub(super) p_c: I::V,
     /// Which lanes expand in `-theta`.
-    fn mirrored(isa: I, medium: &MediumLanes<I>) -> I::Mask;
+    pub(super) mirrored: I::Mask,
+}
+
+impl<I: Isa> Expanded<I> {
+    #[inline(always)]
+    pub(super) fn new(p: [I::Double; ORDER + 1], theta_c: I::Double, mirrored: I::Mask) -> Self {
+        Self { p, theta_c, p_c: I::V::narrow(horner_lanes(theta_c, p)), mirrored }
+    }
 }
 
 pub(crate) struct Taylor<I: Isa, E> {
@@ -48,16 +64,19 @@ pub(crate) struct Taylor<I: Isa, E> {
     half: I::V,
     /// `P N` on the first piece, in `x`, from degree 0 on.
     product: [I::V; PRODUCT_ORDER + 1],
-    /// Its antiderivative over `x`, and its values at -1, 0 and 1.
+    /// Its antiderivative over `x`, divided by `x`.
     integral: [I::V; PRODUCT_ORDER + 1],
+    /// What starts the iteration: the values of `P N` at -1, 0 and 1, and the quintic.
     three: [I::V; 3],
+    quintic: [I::V; 4],
     /// N at the ends of the second piece, and its antiderivative counted into it.
     n_c: I::V,
     n_b: I::V,
     s_c: I::V,
     s_b: I::V,
-    /// Integrals of `P N` over `x` from the middle to -1, over `theta` on the pieces, and over both.
+    /// Integrals of `P N` over `x` from the middle to -1 and over all of it, and over `theta` on the pieces.
     below: I::V,
+    scale: I::V,
     mass_1: I::V,
     mass_2: I::V,
     /// `P(theta_c)`, the constant of the second piece.
@@ -70,9 +89,7 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
     fn new(isa: I, geometry: &Geometry<I>, medium: &MediumLanes<I>) -> Self {
         let c = |x| isa.splat(x);
         let g = geometry;
-        let p = E::coefficients(isa, g, medium);
-        let theta_c = E::trusted(isa, g, medium);
-        let mirrored = E::mirrored(isa, medium);
+        let Expanded { p, theta_c, p_c, mirrored } = E::expand(isa, g, medium);
 
         // The ends in the order of the angle that is expanded.
         let pick = |a: I::V, b: I::V| I::V::select(mirrored, b, a);
@@ -86,36 +103,31 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
         let half = width * c(0.5);
         let middle = theta_a + half.widen();
 
-        // N and its derivative at the middle of the first piece, and N at its end, from the end where N is smaller:
-        // there both terms of N are positive.
-        let from_a = n_a.le(n_b);
-        let (n_e, s_e) = (I::V::select(from_a, n_a, n_b), I::V::select(from_a, s_a, s_b).abs());
-        let one = c(1.0);
-        let (n_m, slope_m) = cosine_at(isa, n_e, s_e, I::V::select(from_a, half, subtended - half));
-        let (n_c, slope_c) = cosine_at(isa, n_e, s_e, I::V::select(from_a, width, subtended - width));
-        let slope_m = I::V::select(from_a, slope_m, -slope_m);
-        let slope_c = I::V::select(from_a, slope_c, -slope_c);
-        let n_m = I::V::select(g.has_normal, n_m, one);
-        let slope_m = I::V::select(g.has_normal, slope_m, c(0.0));
+        // N and S at the middle of the first piece and at its end. N is concave: from the start it halves at most on the
+        // way to the middle, so that what cancels is no more than N.
+        let (sin, cos) = sin_cos(isa, half);
+        let (n_m, s_m) = (n_a.mul_add(cos, -(s_a * sin)), n_a.mul_add(sin, s_a * cos));
+        let (n_c, s_c) = (n_m.mul_add(cos, -(s_m * sin)), n_m.mul_add(sin, s_m * cos));
+        let n_c = n_c.max(c(0.0));
+        // N' = -S.
+        let n_m = I::V::select(g.has_normal, n_m, c(1.0));
+        let slope_m = I::V::select(g.has_normal, -s_m, c(0.0));
         let wave = I::V::select(g.has_normal, half, c(0.0));
 
-        let product = multiply(isa, shift::<I>(p, middle, half), cosine_series(isa, n_m, slope_m, wave));
+        let product = I::V::multiply(&shift::<I>(p, middle, half), &cosine_series(isa, n_m, slope_m, wave));
         let integral = integrate(isa, &product);
         // At 1 and -1 the even terms and the odd ones are all there is.
-        let [even, odd] = halves_at_1(&integral);
-        let below = odd - even;
-        let mass_1 = (even + even) * half;
+        let integrals = halves_at_1(&integral);
+        let below = integrals[1] - integrals[0];
+        let scale = integrals[0] + integrals[0];
+        let mass_1 = scale * half;
 
-        let [even, odd] = halves_at_1(&product);
-        let (f_a, f_b) = (even - odd, even + odd);
+        let values = halves_at_1(&product);
+        let (f_a, f_b) = (values[0] - values[1], values[0] + values[1]);
         let three = [f_a.max(c(0.0)), product[0], f_b.max(c(0.0))];
+        let quintic = quintic(isa, product[0], values, integrals);
 
-        let p_c = I::V::narrow(horner_lanes(smaller(middle + half.widen(), theta_c), p));
         let rest = subtended - width;
-        let whole = width.eq(c(0.0));
-        let n_c = I::V::select(whole, n_a, n_c.max(c(0.0)));
-        // The antiderivative grows by N, so S = -N' counted along theta.
-        let s_c = I::V::select(whole, s_a, -slope_c);
         let right_angle = c(core::f32::consts::FRAC_PI_2);
         let tan_half = tan(isa, rest.min(right_angle) * c(0.5));
         let cosines = mass_of_cosine::<I>([n_c, n_b], [s_c, -s_b], tan_half, right_angle.lt(rest));
@@ -131,11 +143,13 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
             product,
             integral,
             three,
+            quintic,
             n_c,
             n_b,
             s_c,
             s_b,
             below,
+            scale,
             mass_1,
             mass_2,
             p_c,
@@ -150,20 +164,31 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
         let u = I::V::select(self.mirrored, c(1.0) - u, u);
         let total = self.mass_1 + self.mass_2;
         let target = u * total;
-        let first = target.lt(self.mass_1);
+        // Where there is no second piece, u = 1 is the end of the first.
+        let width = self.half + self.half;
+        let below = target.lt(self.mass_1);
+        let first = below | self.subtended.le(width);
 
         // First piece: the angle from its middle, in units of its half width.
-        let value = target / self.half.max(c(1e-37)) + self.below;
-        let scale = self.mass_1 / self.half.max(c(1e-37));
-        let start = self.first_guess(isa, target / self.mass_1);
-        let wanted = first & g.lit & g.valid;
+        let share = target / self.mass_1;
+        let value = share.mul_add(self.scale, self.below);
+        let start = self.first_guess(isa, share, value);
+        let start = I::V::select(below, start, c(1.0));
+        let wanted = below & g.lit & g.valid;
         let root = solve(
             isa,
             #[inline(always)]
-            |x: I::V| (x.mul_add(horner_lanes(x, self.integral), -value), horner_lanes(x, self.product)),
+            |x: I::V| {
+                let z = x * x;
+                At {
+                    value: x.mul_add(by_halves(x, z, &self.integral), -value),
+                    slope: by_halves(x, z, &self.product),
+                    curvature: self.curvature(isa, x),
+                }
+            },
             [c(-1.0), c(1.0)],
             start,
-            scale * c(1.2e-7),
+            self.scale * c(1.2e-7),
             wanted,
         );
         // Off the very ends, where N may be 0.
@@ -172,7 +197,6 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
 
         // Second piece: from the end, or from its own start where that is near the interval's.
         let (from_c, rest) = (target - self.mass_1, total - target);
-        let width = self.half + self.half;
         let by_start = !first & from_c.lt(rest) & width.lt(self.subtended * c(0.25));
         let cosines = I::V::select(by_start, from_c, rest).max(total * c(NEAREST)) / self.p_c;
         let n_end = I::V::select(by_start, self.n_c, self.n_b);
@@ -209,9 +233,10 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
 }
 
 impl<I: Isa, E> Taylor<I, E> {
-    /// Where the CDF of the first piece is about `share`: the inverse for a density linear between -1, 0 and 1.
+    /// Where the CDF of the first piece is about `share` and the integral from its middle `value`: the inverse for a
+    /// density linear between -1, 0 and 1, and Newton's method for the quintic.
     #[inline(always)]
-    fn first_guess(&self, isa: I, share: I::V) -> I::V {
+    fn first_guess(&self, isa: I, share: I::V, value: I::V) -> I::V {
         let c = |x| isa.splat(x);
         let [f_a, f_m, f_b] = self.three;
         let twice_below = f_a + f_m;
@@ -221,56 +246,64 @@ impl<I: Isa, E> Taylor<I, E> {
         let twice = I::V::select(above, twice - twice_below, twice);
         let root = f_0.mul_add(f_0, (f_1 - f_0) * twice).max(c(0.0)).sqrt();
         let x = twice / (f_0 + root).max(c(1e-37));
-        I::V::select(above, x, x - c(1.0)).max(c(-1.0)).min(c(1.0))
+        let mut x = I::V::select(above, x, x - c(1.0));
+        let [a_2, a_3, a_4, a_5] = self.quintic;
+        let mut step = 0;
+        while step < QUINTIC_STEPS {
+            let q = a_5.mul_add(x, a_4).mul_add(x, a_3).mul_add(x, a_2).mul_add(x, f_m);
+            let [b_4, b_3, b_2, b_1] = [a_5 * c(5.0), a_4 * c(4.0), a_3 * c(3.0), a_2 + a_2];
+            let slope = b_4.mul_add(x, b_3).mul_add(x, b_2).mul_add(x, b_1).mul_add(x, f_m);
+            // Where the density vanishes a step would go anywhere.
+            x = x - x.mul_add(q, -value) / slope.max(self.scale * c(1e-4));
+            x = x.max(c(-1.0)).min(c(1.0));
+            step += 1;
+        }
+        x
+    }
+
+    /// The derivative of `P N` at `x`, about: that of the quintic.
+    #[inline(always)]
+    fn curvature(&self, isa: I, x: I::V) -> I::V {
+        let c = |x| isa.splat(x);
+        let [a_2, a_3, a_4, a_5] = self.quintic;
+        (a_5 * c(20.0)).mul_add(x, a_4 * c(12.0)).mul_add(x, a_3 * c(6.0)).mul_add(x, a_2 + a_2)
     }
 
     /// The density at a point whose (mirrored) angle is `theta`.
     #[inline(always)]
     fn at(&self, isa: I, geometry: &Geometry<I>, point: &Point<I>, theta: I::Double) -> Pdf<I> {
-        let p = I::V::narrow(horner_lanes(smaller(theta, self.theta_c), self.p));
+        let p = I::V::narrow(horner_lanes(theta.min(self.theta_c), self.p));
         let p_theta = p * geometry.cosine(isa, point) / (self.mass_1 + self.mass_2);
         Pdf::over_angle(p_theta, geometry.h, point.r)
     }
-}
-
-/// N and its derivative at the angle `delta` from an end where they are `n` and `s`.
-#[inline(always)]
-fn cosine_at<I: Isa>(isa: I, n: I::V, s: I::V, delta: I::V) -> (I::V, I::V) {
-    let (sin, cos) = sin_cos(isa, delta);
-    (n.mul_add(cos, s * sin), s * cos - n * sin)
 }
 
 /// `theta` of a point \[rad\], within 1.7e-8 of that of the rounded `t'` and `h`, a third of half an ulp: the logarithms
 /// of the polynomials have slopes up to 30.
 #[inline(always)]
 fn angle<I: Isa>(isa: I, t_prime: I::V, h: I::V) -> I::Double {
-    let c = |x| isa.splat_double(x);
+    let (c, d) = (|x| isa.splat(x), |x| isa.splat_double(x));
     let size = t_prime.abs();
     let (less, more) = (size.min(h), size.max(h));
-    let q = less / more;
-    // What the division left.
-    let rest = I::V::narrow(less.widen() - q.widen() * more.widen());
-    let exact_q = q.widen() + (rest / more).widen();
-    let z = exact_q * exact_q;
-    let p = horner(isa, I::V::narrow(z), ATAN).widen().mul_add(z, c(0.199_976_2)).mul_add(z, c(-0.333_332_63));
-    let atan = (exact_q * z).mul_add(p, exact_q);
-    let one = isa.splat(1.0);
-    let sign = I::V::select(t_prime.lt(isa.splat(0.0)), -one, one);
+    let one_over = c(1.0) / more;
     // Beyond 45 degrees it is the complement.
     let steep = h.lt(size);
-    let turn = I::V::select(steep, -sign, sign).widen();
-    let quarter = I::V::select(steep, sign, isa.splat(0.0)).widen();
-    quarter.mul_add(c(core::f64::consts::FRAC_PI_2), turn * atan)
+    let sign = I::V::select(t_prime.lt(c(0.0)), c(-1.0), c(1.0));
+    let less = less * I::V::select(steep, -sign, sign);
+    let quarter = I::V::select(steep, sign, c(0.0)).widen();
+    let q = (less * one_over).widen();
+    // What the rounding left.
+    let rest = less.widen() - q * more.widen();
+    let q = rest.mul_add(one_over.widen(), q);
+    let z = q * q;
+    let p = horner(isa, I::V::narrow(z), ATAN).widen().mul_add(z, d(0.199_976_2)).mul_add(z, d(-0.333_332_63));
+    let atan = (q * z).mul_add(p, q);
+    quarter.mul_add(d(core::f64::consts::FRAC_PI_2), atan)
 }
 
 /// Coefficients, highest degree first, of `(atan q / q - 1) / q^2` in `q^2` for `q` up to 1, but for the last two.
 const ATAN: [f32; 7] =
     [-0.001_602_414, 0.010_025_549, -0.029_446_354, 0.056_127_183, -0.082_897_5, 0.109_102_75, -0.142_554_63];
-
-#[inline(always)]
-pub(super) fn smaller<D: Double>(a: D, b: D) -> D {
-    -(-a).max(-b)
-}
 
 /// One division by `theta - middle`.
 #[inline(always)]
@@ -309,6 +342,10 @@ fn shift<I: Isa>(mut p: [I::Double; ORDER + 1], middle: I::Double, half: I::V) -
     q
 }
 
+/// Coefficients, highest degree first, of `(cos y - 1) / y^2` in `y^2`, for `|y| <= pi/2`: with an error of 5.3e-8 of
+/// the cosine, of which an integral keeps less.
+const COS: [f32; 4] = [2.319_438_7e-5, -1.385_592_7e-3, 4.166_399e-2, -0.499_999_3];
+
 /// The coefficients of `n cos(wave x) + slope sin(wave x)` for `|x| <= 1`, `wave <= pi/2`.
 #[inline(always)]
 fn cosine_series<I: Isa>(isa: I, n: I::V, slope: I::V, wave: I::V) -> [I::V; COSINE_ORDER + 1] {
@@ -320,41 +357,47 @@ fn cosine_series<I: Isa>(isa: I, n: I::V, slope: I::V, wave: I::V) -> [I::V; COS
     while k <= COSINE_ORDER / 2 {
         q[2 * k] = even * isa.splat(COS[COS.len() - k]);
         even = even * z;
-        if 2 * k < COSINE_ORDER {
-            q[2 * k + 1] = odd * isa.splat(SIN[SIN.len() - k]);
-            odd = odd * z;
-        }
+        q[2 * k + 1] = odd * isa.splat(SIN[SIN.len() - k]);
+        odd = odd * z;
         k += 1;
     }
     q
 }
 
-#[inline(always)]
-fn multiply<I: Isa>(isa: I, p: [I::V; ORDER + 1], q: [I::V; COSINE_ORDER + 1]) -> [I::V; PRODUCT_ORDER + 1] {
-    let mut product = [isa.splat(0.0); PRODUCT_ORDER + 1];
-    let mut i = 0;
-    while i <= ORDER {
-        let mut k = 0;
-        while k <= COSINE_ORDER {
-            product[i + k] = p[i].mul_add(q[k], product[i + k]);
-            k += 1;
-        }
-        i += 1;
-    }
-    product
-}
-
 /// The sums of the even and of the odd coefficients.
 #[inline(always)]
 fn halves_at_1<V: Lanes>(p: &[V; PRODUCT_ORDER + 1]) -> [V; 2] {
-    let (mut even, mut odd) = (p[PRODUCT_ORDER], p[PRODUCT_ORDER - 1]);
+    let (mut even, mut odd) = (p[PRODUCT_ORDER - 1], p[PRODUCT_ORDER]);
     let mut k = PRODUCT_ORDER - 1;
-    while k > 1 {
+    while k > 0 {
         k -= 2;
-        even = even + p[k + 1];
-        odd = odd + p[k];
+        even = even + p[k];
+        odd = odd + p[k + 1];
     }
-    [even + p[0], odd]
+    [even, odd]
+}
+
+/// The polynomial with the given coefficients, from degree 0 on, the even and the odd ones apart: half the latency.
+#[inline(always)]
+fn by_halves<V: Lanes>(x: V, z: V, p: &[V; PRODUCT_ORDER + 1]) -> V {
+    let (mut even, mut odd) = (p[PRODUCT_ORDER - 1], p[PRODUCT_ORDER]);
+    let mut k = PRODUCT_ORDER - 1;
+    while k > 0 {
+        k -= 2;
+        even = even.mul_add(z, p[k]);
+        odd = odd.mul_add(z, p[k + 1]);
+    }
+    odd.mul_add(x, even)
+}
+
+/// The coefficients, from degree 2 on, of the quintic that agrees with an antiderivative and its slope at -1, 0 and 1:
+/// given the slope at 0, and what the even and the odd terms of the slope and of the antiderivative over `x` are at 1.
+#[inline(always)]
+fn quintic<I: Isa>(isa: I, f_m: I::V, values: [I::V; 2], integrals: [I::V; 2]) -> [I::V; 4] {
+    let c = |x| isa.splat(x);
+    let a_4 = values[1].mul_add(c(0.5), -integrals[1]);
+    let a_5 = (values[0] - integrals[0]).mul_add(c(0.5), f_m - integrals[0]);
+    [integrals[1] - a_4, (integrals[0] - f_m) - a_5, a_4, a_5]
 }
 
 /// The antiderivative that vanishes at 0, divided by `x`.

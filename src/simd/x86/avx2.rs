@@ -166,6 +166,10 @@ impl Number for F64x4 {
 
 impl Double for F64x4 {
     #[inline(always)]
+    fn min(self, o: Self) -> Self {
+        Self(proven!(_mm256_min_pd(self.0, o.0)))
+    }
+    #[inline(always)]
     fn max(self, o: Self) -> Self {
         Self(proven!(_mm256_max_pd(self.0, o.0)))
     }

@@ -155,6 +155,10 @@ impl Number for F64x8 {
 
 impl Double for F64x8 {
     #[inline(always)]
+    fn min(self, o: Self) -> Self {
+        Self(proven!(_mm512_min_pd(self.0, o.0)))
+    }
+    #[inline(always)]
     fn max(self, o: Self) -> Self {
         Self(proven!(_mm512_max_pd(self.0, o.0)))
     }
