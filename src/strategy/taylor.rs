@@ -161,7 +161,8 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
     fn invert(&self, isa: I, geometry: &Geometry<I>, u: I::V) -> Drawn<I> {
         let c = |x| isa.splat(x);
         let g = geometry;
-        let u = I::V::select(self.mirrored, c(1.0) - u, u);
+        let rest = c(1.0) - u;
+        let (u, rest) = (I::V::select(self.mirrored, rest, u), I::V::select(self.mirrored, u, rest));
         let total = self.mass_1 + self.mass_2;
         let target = u * total;
         // Where there is no second piece, u = 1 is the end of the first.
@@ -195,8 +196,9 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
         let off = self.subtended * c(1e-8);
         let delta = self.half.mul_add(root.x, self.half).max(off);
 
-        // Second piece: from the end, or from its own start where that is near the interval's.
-        let (from_c, rest) = (target - self.mass_1, total - target);
+        // Second piece: from the end, or from its own start where that is near the interval's. It may have less of the mass
+        // than the rounding of the target.
+        let (from_c, rest) = (target - self.mass_1, (rest * total).min(self.mass_2));
         let by_start = !first & from_c.lt(rest) & width.lt(self.subtended * c(0.25));
         let cosines = I::V::select(by_start, from_c, rest).max(total * c(NEAREST)) / self.p_c;
         let n_end = I::V::select(by_start, self.n_c, self.n_b);
