@@ -26,7 +26,7 @@ use std::str::FromStr;
 /// | thin medium, `abs(g)` below 0.3, and the sampler shows in a profile | `PointNormal`, or `EquiAngular` for emitters without a normal | half the cost of `Product5`; its variance is bounded by that of phase function and transmittance, which then vary little |
 /// | a dense medium, `abs(g)` above 0.5, or emitters seen from behind | none but a product density | the relative variance of all others has no bound: above 1 for a third of a broad set of scenes |
 /// | a second density to combine with (multiple importance sampling) | `Transmittance` | knows no emitter, and so misses no other light |
-/// | a comparison with the paper | `TaylorTransmittance`, `TaylorPhase` | more than twice the cost of `Product5` and a larger variance in all but single cases |
+/// | a comparison with the paper | `TaylorTransmittance`, `TaylorPhase` | 1.6 times the cost of `Product5` and a larger variance in all but single cases |
 ///
 /// Relative variance is that of one weight over the square of its mean: `airlight variance --set broad`. Costs:
 /// `airlight profile`, on AVX2. Rendered scenes, at equal time: `airlight render --compare`. More knots than 5 lessen the
