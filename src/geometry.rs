@@ -219,8 +219,8 @@ impl<I: Isa> Geometry<I> {
         self.dot_of_ends().lt(isa.splat(0.0)) | (rr * isa.splat(1e-25)).lt(light)
     }
 
-    /// Which ends have less than `share` of the largest cosine, or where the interval subtends less than a right angle, of
-    /// the sum of those at the ends.
+    /// Which ends have less than `share` of `|alpha| + |beta|`, the size of the cosine, or where the interval subtends less
+    /// than a right angle, of the sum of those at the ends.
     #[inline(always)]
     pub(crate) fn dark_ends(&self, isa: I, share: f32) -> [I::Mask; 2] {
         let wide = self.dot_of_ends().lt(isa.splat(0.0));
@@ -351,8 +351,7 @@ impl<I: Isa> Geometry<I> {
         I::V::select(self.has_normal, point.m / point.r, isa.splat(1.0))
     }
 
-    /// The length of the path from `t_min` over the point to the emitter \[m\]: the exponential multiplies an error of the
-    /// optical depth by the depth.
+    /// The length of the path from `t_min` over the point to the emitter \[m\].
     #[inline(always)]
     pub(crate) fn path(&self, isa: I, point: &Point<I>) -> I::Double {
         let (_, r) = self.exact_r(isa, point);
@@ -366,12 +365,12 @@ impl<I: Isa> Geometry<I> {
         let t_prime = point.exact_t_prime;
         let long = r + t_prime.max(-t_prime);
         let short = h_squared * reciprocal(isa, long);
-        // Without a select of doubles: of r + t' and h^2/(r - t') the one whose t' is positive.
+        // r + t' where t' > 0, else h^2/(r - t'): there is no select of doubles.
         let sign = I::V::select(isa.splat(0.0).lt(point.t_prime), isa.splat(1.0), isa.splat(0.0)).widen();
         (sign.mul_add(long - short, short), r)
     }
 
-    /// `h^2`, and `r` by a Newton step of its root.
+    /// `h^2`, and `r` by a Newton step of its root: the exponential multiplies an error of the optical depth by the depth.
     #[inline(always)]
     fn exact_r(&self, isa: I, point: &Point<I>) -> (I::Double, I::Double) {
         let (t_prime, r) = (point.exact_t_prime, point.r.widen());

@@ -1,4 +1,4 @@
-//! Newton's method inside a shrinking bracket, with bisection where a step leaves it.
+//! Newton's method with the curvature seen to, inside a shrinking bracket, with bisection where a step leaves it.
 
 use crate::simd::{Isa, Lanes, Number, none};
 
@@ -7,7 +7,8 @@ const NEWTON_STEPS: usize = 8;
 /// Steps after which the iteration ends in any case.
 const STEPS: usize = 24;
 
-/// How much of a step that bends little may be left after it, times the square of the step.
+/// How much of `f` a step may leave, times the square of the step: in the place of `f'''/(6 f')`, and of what a rough
+/// curvature adds.
 const LEFT: f32 = 16384.0;
 
 /// Where an increasing function takes a value.
@@ -28,8 +29,9 @@ pub(crate) struct At<I: Isa> {
 /// Solves `f(x) = 0` for `x` in `[low, high]`, where `f` increases.
 ///
 /// Each step shrinks the bracket by the sign of `f`, then goes to Chebyshev's point, Newton's with the curvature seen
-/// to, if that lies inside, else to the middle. A lane stops where `|f| <= tolerance`, or where the step is so short
-/// that it will be: what a lane does depends on no other lane. The result lies in the bracket whatever `f` returns.
+/// to, if that lies inside, else to the middle. A lane stops where `|f| <= tolerance`, or after a step so short that
+/// little can be left, at most four times the tolerance where the curvature is rough: what a lane does depends on no
+/// other lane. The result lies in the bracket whatever `f` returns.
 #[inline(always)]
 pub(crate) fn solve<I: Isa>(
     isa: I,

@@ -116,10 +116,10 @@ impl Sampler {
     ///
     /// It is the density of what [`sample`](Self::sample) returns, taken at `t` as rounded: where `t` resolves `r` the
     /// two agree within 1e-5, next to the emitter that of `sample` is the exact one. Error at a given `t`: below 8 ulp for
-    /// 99 % of rays, 64 for 99.99 %; of product densities at the very ends of the interval, where they may vanish, 14 and 128
-    /// (of product-3 next to the emitter 9 and 64).
-    /// A density of less than a thousandth of `1/(t_b - t_a)`, its mean over the sampled interval, has errors in ulp of that;
-    /// one below f32's range is 0.
+    /// 99 % of rays, 64 for 99.99 %; of product densities at the very ends of the interval, where they may vanish, 14 and
+    /// 128, of product-3 next to the emitter 9 and 64, and of product densities on arbitrary bits 10 for 99 %. A density of
+    /// less than a thousandth of `1/(t_b - t_a)`, its mean over the sampled interval, has errors in ulp of that; one below
+    /// f32's range is 0.
     ///
     /// [`Counts::sampled`] counts the rays that have a sample, whether or not it could be at `t`. A NaN in `t` makes
     /// its ray invalid.

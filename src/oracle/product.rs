@@ -133,7 +133,8 @@ fn scale(arc: &Arc, mu_t: f64, g: f64) -> f64 {
     (1.0 / (chosen::EXTINCTION * mu_t + 1.0 / reach)).max(1e-18)
 }
 
-/// Which ends are dark, as compared with the largest cosine or, below a right angle, with the sum of those at the ends.
+/// Which ends are dark, as compared with `|alpha| + |beta|` or, below a right angle, with the sum of the cosines at the
+/// ends.
 fn dark(scene: &Scene, arc: &Arc) -> [bool; 2] {
     let [n_a, n_b] = [arc.cosine(arc.start()), arc.cosine(arc.end())];
     let size = if arc.width() > 0.5 * PI { scene.alpha().abs() + scene.beta().abs() } else { n_a + n_b };

@@ -58,7 +58,7 @@ impl OfDensity for UpTo {
                 // Values, not references, go into the black box: the stages beyond keep theirs in registers.
                 if stage == Stage::Geometry {
                     let (valid, lit) = (group.valid(), group.geometry.lit);
-                    black_box((group.geometry, group.medium));
+                    black_box((group.geometry, group.medium.mu_t));
                     return count::<I>(valid, lit, none(isa));
                 }
                 let density = D::new(isa, &group.geometry, &group.medium);

@@ -62,11 +62,12 @@ pub(crate) trait Lanes: Number + Div<Output = Self> {
     /// Rounded to nearest.
     fn narrow(d: Self::Double) -> Self;
 
-    /// The coefficients of the product of two polynomials, from degree 0 on; `R = P + Q - 1`, `P <= Q`.
+    /// The coefficients of the product of two polynomials, from degree 0 on; `R = P + Q - 1`.
     ///
-    /// At any time only `P` sums are open: all of them at once do not fit the registers.
+    /// At any time only `P` sums are open, so `p` is the shorter one: all of them at once do not fit the registers.
     #[inline(always)]
     fn multiply<const P: usize, const Q: usize, const R: usize>(p: &[Self; P], q: &[Self; Q]) -> [Self; R] {
+        const { assert!(R + 1 == P + Q) };
         let mut open = *p;
         let mut product = [p[0]; R];
         let mut k = 0;
@@ -74,8 +75,7 @@ pub(crate) trait Lanes: Number + Div<Output = Self> {
             let mut i = 0;
             while i < P {
                 // What is open for degree k + i, but for the highest, which is new.
-                let term = p[i] * q[k];
-                open[i] = if k == 0 || i == P - 1 { term } else { p[i].mul_add(q[k], open[i + 1]) };
+                open[i] = if k == 0 || i == P - 1 { p[i] * q[k] } else { p[i].mul_add(q[k], open[i + 1]) };
                 i += 1;
             }
             product[k] = open[0];

@@ -45,9 +45,9 @@ const DARK: f32 = 1.0 / 4096.0;
 /// So much of the next knot the line counts against what is seen inside a dark end: more than a straight line would, which
 /// ends at about 0 and is a difference without digits. The least share stands there.
 const NEXT_TO_DARK: f32 = 0.25;
+/// The least share of what is seen that the line keeps at a dark end.
 const LEAST_IN_THE_DARK: f32 = 0.0625;
-
-/// The same between the ends.
+/// The least share of the integrand that it keeps between the ends.
 const LEAST: f32 = 0.5;
 
 /// Of this `|g|` is the density for all that is larger: at 1 the phase function is none.

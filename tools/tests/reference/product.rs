@@ -101,7 +101,7 @@ impl<'a> Product<'a> {
     }
 }
 
-/// Compared with the largest cosine, or below a right angle with the sum of those at the ends.
+/// Compared with `|alpha| + |beta|`, or below a right angle with the sum of the cosines at the ends.
 fn dark(scene: &Scene, ends: [&Big; 2]) -> [bool; 2] {
     let Some([alpha_h, beta]) = &scene.normal else { return [false; 2] };
     let t_prime = ends.map(|t| t - &scene.t_h);
