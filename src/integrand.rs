@@ -1,9 +1,9 @@
 //! What is integrated: `f = mu_s T rho N / r^2`, without the `1/r^2` that every density shares.
 
+use crate::expansion::Expanded;
 use crate::geometry::{Geometry, Point};
 use crate::simd::math::exp;
 use crate::simd::{Isa, Lanes, Number};
-use crate::strategy::Expanded;
 
 /// The media of a lane group.
 #[derive(Clone, Copy)]

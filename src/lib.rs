@@ -11,6 +11,7 @@
 //! | `scene` | [`Ray`], [`Emitter`], [`Medium`]: one of each, validated |
 //! | `batch` | [`Rays`], [`Emitters`], [`Media`], [`Samples`]: borrowed columns of many |
 //! | `geometry` | `h`, `t_h`, the lit interval and its ends, without cancellation |
+//! | `expansion` | a factor of the integrand as a polynomial of the angle |
 //! | `strategy` | one file per density: its set-up, its inverse, its pdf |
 //! | `inversion` | Newton's method in a bracket |
 //! | `integrand` | `mu_s T rho N` for the weight |
@@ -64,6 +65,7 @@
 mod batch;
 mod density;
 mod error;
+mod expansion;
 mod geometry;
 mod integrand;
 mod inversion;

@@ -12,6 +12,7 @@
 
 use super::point_normal::{NEAREST, mass_of_cosine, tan_half_at_mass};
 use crate::density::{Density, Drawn, Pdf};
+use crate::expansion::{Expanded, ORDER};
 use crate::geometry::{Geometry, Point};
 use crate::integrand::MediumLanes;
 use crate::inversion::{At, solve};
@@ -19,8 +20,6 @@ use crate::simd::math::{SIN, horner, horner_lanes, sin_cos, tan};
 use crate::simd::{Double, Isa, Lanes, Number};
 use core::marker::PhantomData;
 
-/// The order of the expansions.
-pub(crate) const ORDER: usize = 6;
 /// The order of the local polynomial of N; odd, as that of the product: even and odd terms are summed in pairs.
 const COSINE_ORDER: usize = 9;
 /// Steps of Newton's method for the quintic that starts the iteration.
@@ -33,25 +32,6 @@ const _: () = assert!(COSINE_ORDER % 2 == 1 && PRODUCT_ORDER % 2 == 1);
 pub(crate) trait Expansion<I: Isa> {
     /// The polynomial of a lane group's rays and media.
     fn expand(isa: I, geometry: &Geometry<I>, medium: &MediumLanes<I>) -> Expanded<I>;
-}
-
-/// The polynomial of some lanes, and where it is trusted.
-#[derive(Clone, Copy)]
-pub(crate) struct Expanded<I: Isa> {
-    /// Coefficients from degree 0 on, up to a common factor.
-    pub(super) p: [I::Double; ORDER + 1],
-    /// The angle up to which the polynomial is trusted \[rad\], and its value there.
-    pub(super) theta_c: I::Double,
-    pub(super) p_c: I::V,
-    /// Which lanes expand in `-theta`.
-    pub(super) mirrored: I::Mask,
-}
-
-impl<I: Isa> Expanded<I> {
-    #[inline(always)]
-    pub(super) fn new(p: [I::Double; ORDER + 1], theta_c: I::Double, mirrored: I::Mask) -> Self {
-        Self { p, theta_c, p_c: I::V::narrow(horner_lanes(theta_c, p)), mirrored }
-    }
 }
 
 pub(crate) struct Taylor<I: Isa, E> {

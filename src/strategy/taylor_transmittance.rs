@@ -1,6 +1,7 @@
 //! The expansion of the transmittance `exp(-m (tan theta + sec theta))`, `m = mu_t h`, (4)-(11), over its value at 0.
 
-use super::taylor::{Expanded, Expansion};
+use super::taylor::Expansion;
+use crate::expansion::Expanded;
 use crate::geometry::Geometry;
 use crate::integrand::MediumLanes;
 use crate::simd::math::horner_double;
