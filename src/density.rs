@@ -47,9 +47,9 @@ pub(crate) struct Pdf<I: Isa> {
 impl<I: Isa> Pdf<I> {
     /// From a density over the angle at the emitter, `dtheta = h dt / r^2`.
     #[inline(always)]
-    pub(crate) fn over_angle(p_theta: I::V, h: I::V, r: I::V) -> Self {
-        let times_r2 = p_theta * h;
-        Self { over_t: times_r2 / (r * r), times_r2 }
+    pub(crate) fn over_angle(p_theta: I::V, geometry: &Geometry<I>, point: &Point<I>) -> Self {
+        let times_r2 = p_theta * geometry.h;
+        Self { over_t: times_r2 / geometry.r_squared(point.t_prime), times_r2 }
     }
 
     /// From a density over distance.

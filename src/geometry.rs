@@ -5,7 +5,7 @@
 //! the interval or small `h`: angles are taken between two points of the ray, distances from the nearer end.
 
 use crate::scene::{FARTHEST, UNIT_TOLERANCE};
-use crate::simd::math::{angle_of, reciprocal};
+use crate::simd::math::{angle_of, reciprocal, reciprocal_near};
 use crate::simd::{Double, Isa, Lanes, Number};
 
 /// The rays of a lane group.
@@ -53,7 +53,9 @@ pub(crate) struct End<I: Isa> {
     pub(crate) t_prime: I::V,
     /// Distance to the emitter \[m\].
     pub(crate) r: I::V,
-    /// The cosine `N` there: exactly 0 where the interval was clipped, 1 without a normal.
+    /// `n.(x - y) = N r` there \[m\]: exactly 0 where the interval was clipped.
+    pub(crate) m: I::V,
+    /// The cosine `N`; 1 without a normal.
     pub(crate) n: I::V,
 }
 
@@ -76,6 +78,7 @@ pub(crate) struct Point<I: Isa> {
 pub(crate) struct Geometry<I: Isa> {
     /// Distance from the emitter to the ray's line \[m\].
     pub(crate) h: I::V,
+    h_squared: I::V,
     /// `alpha = n.u`: with `beta`, the cosine is `N = alpha cos theta + beta sin theta`, (21).
     pub(crate) alpha: I::V,
     /// `beta = n.d`.
@@ -118,8 +121,7 @@ impl<I: Isa> Geometry<I> {
         let q = d[2].mul_add(d[2], d[1].mul_add(d[1], d[0].mul_add(d[0], isa.splat_double(-1.0))));
         let unit = q
             .mul_add(isa.splat_double(-0.3125), isa.splat_double(0.375))
-            .mul_add(q, isa.splat_double(-0.5))
-            .mul_add(q, isa.splat_double(1.0));
+            .mul_add(q * q, q.mul_add(isa.splat_double(-0.5), isa.splat_double(1.0)));
         let t_h = dot(e, d) * unit;
         let beta_exact = dot(n, d) * unit;
         let along = t_h * unit;
@@ -130,10 +132,11 @@ impl<I: Isa> Geometry<I> {
         let t_prime_min = ray.t_min.widen() - t_h;
         let t_prime_max = t_max.widen() - t_h;
         let (ta, tb) = (I::V::narrow(t_prime_min), I::V::narrow(t_prime_max));
-        let foot_squared = dot(foot, foot);
-        let foot_size = I::V::narrow(foot_squared).sqrt();
         let least_h = (ta.abs().max((ray.t_min - ta).abs()) * c(1e-9)).max(c(1e-18));
-        let h = least_h.max(foot_size);
+        let foot_squared = dot(foot, foot);
+        let size_squared = I::V::narrow(foot_squared);
+        let h_squared = (least_h * least_h).max(size_squared);
+        let h = h_squared.sqrt();
         let length = t_max - ray.t_min;
 
         // The sign of m = n.(x - y) at the ends decides what is lit.
@@ -145,41 +148,43 @@ impl<I: Isa> Geometry<I> {
         let both = dark_a & dark_b;
         let (clip_a, clip_b) = (dark_a & !dark_b, dark_b & !dark_a);
 
-        // Where N = 0.
+        // Where N = 0: a Newton step after the division, as what is lit may be as short as what it leaves.
         let beta = I::V::narrow(beta_exact);
         let inv_beta = c(1.0) / beta;
-        let tn = (-I::V::narrow(alpha_h) * inv_beta).max(ta).min(tb);
+        let near = inv_beta.widen();
+        let once = -(alpha_h * reciprocal_near(isa, beta_exact, near));
+        let t_prime_n = once - beta_exact.mul_add(once, alpha_h) * near;
+        let tn = I::V::narrow(t_prime_n).max(ta).min(tb);
         let lit_length = (I::V::select(clip_a, m_b, m_a) * inv_beta.abs()).min(length);
         let length = I::V::select(clip_a | clip_b, lit_length, length);
-        // Twice a Newton step: the first leaves 1e-15 of t', and what is lit may be as short.
-        let once = tn.widen() - (I::V::narrow(beta_exact.mul_add(tn.widen(), alpha_h)) * inv_beta).widen();
-        let twice = once - (I::V::narrow(beta_exact.mul_add(once, alpha_h)) * inv_beta).widen();
-        let exact_t_n = t_h + twice;
+        let exact_t_n = t_h + t_prime_n;
         let t_n = I::V::narrow(exact_t_n).max(ray.t_min).min(t_max);
         let t_n_low = I::V::narrow(exact_t_n - t_n.widen());
 
         let (ta, tb) = (I::V::select(clip_a, tn, ta), I::V::select(clip_b, tn, tb));
-        let (ra, rb) = (ta.mul_add(ta, h * h).sqrt(), tb.mul_add(tb, h * h).sqrt());
-        let cosine_a = I::V::select(clip_a, c(0.0), I::V::select(has_normal, m_a / ra, c(1.0)));
-        let cosine_b = I::V::select(clip_b, c(0.0), I::V::select(has_normal, m_b / rb, c(1.0)));
+        let (ra, rb) = (ta.mul_add(ta, h_squared).sqrt(), tb.mul_add(tb, h_squared).sqrt());
+        let (m_a, m_b) = (m_a.max(c(0.0)), m_b.max(c(0.0)));
         let a = End {
             t: I::V::select(clip_a, t_n, ray.t_min),
             t_low: I::V::select(clip_a, t_n_low, c(0.0)),
             t_prime: ta,
             r: ra,
-            n: cosine_a,
+            m: m_a,
+            n: I::V::select(has_normal, m_a / ra, c(1.0)),
         };
         let b = End {
             t: I::V::select(clip_b, t_n, t_max),
             t_low: I::V::select(clip_b, t_n_low, c(0.0)),
             t_prime: tb,
             r: rb,
-            n: cosine_b,
+            m: m_b,
+            n: I::V::select(has_normal, m_b / rb, c(1.0)),
         };
 
         // Below these f32 has no more to say about an interval: it subtends 1e-30 rad, or is 1e-36 of r^2.
-        let rr = ra * rb;
-        let wide = c(1e-18).lt(length) & (rr * c(1e-30)).lt(h * length) & (rr * c(1e-36)).lt(length);
+        // By half the square of |t'| + h, which is between r and the root of 2 r^2.
+        let rr = (ta.abs() + h) * (tb.abs() + h);
+        let wide = c(1e-18).lt(length) & (rr * c(0.5e-30)).lt(h * length) & (rr * c(0.5e-36)).lt(length);
         let valid = emitter.valid
             & I::V::narrow(q).abs().le(c(TOLERANCE))
             & largest::<I>(ray.origin).le(c(FARTHEST))
@@ -187,10 +192,11 @@ impl<I: Isa> Geometry<I> {
             & ray.t_min.le(c(FARTHEST))
             & ray.t_min.le(ray.t_max)
             // No number where one of the coordinates is none.
-            & foot_size.le(c(4.0 * FARTHEST));
+            & size_squared.le(c(16.0 * FARTHEST * FARTHEST));
 
         Self {
             h,
+            h_squared,
             alpha: I::V::narrow(alpha_h) / h,
             beta,
             a,
@@ -224,9 +230,11 @@ impl<I: Isa> Geometry<I> {
     #[inline(always)]
     pub(crate) fn dark_ends(&self, isa: I, share: f32) -> [I::Mask; 2] {
         let wide = self.dot_of_ends().lt(isa.splat(0.0));
-        let size = I::V::select(wide, self.alpha.abs() + self.beta.abs(), self.a.n + self.b.n);
-        let least = size * isa.splat(share);
-        [self.a.n.lt(least), self.b.n.lt(least)]
+        let alpha_h = I::V::narrow(self.alpha_h);
+        let most = self.beta.abs().mul_add(self.h, alpha_h.abs());
+        let (n_a, n_b) = (self.a.n * self.h, self.b.n * self.h);
+        let least = I::V::select(wide, most, n_a + n_b) * isa.splat(share);
+        [n_a.lt(least), n_b.lt(least)]
     }
 
     /// The angle `Theta` that the lit interval subtends at the emitter, in `(0, pi]` \[rad\].
@@ -238,7 +246,7 @@ impl<I: Isa> Geometry<I> {
     /// `r_a r_b cos Theta` \[m^2\].
     #[inline(always)]
     pub(crate) fn dot_of_ends(&self) -> I::V {
-        self.h.mul_add(self.h, self.a.t_prime * self.b.t_prime)
+        self.a.t_prime.mul_add(self.b.t_prime, self.h_squared)
     }
 
     /// `S = alpha sin theta - beta cos theta` at an end: `dS/dtheta = N`.
@@ -256,7 +264,7 @@ impl<I: Isa> Geometry<I> {
         let c = |x| isa.splat(x);
         let toward = |a: I::V, b: I::V| I::V::select(from_a, a, -b);
         let te = toward(self.a.t_prime, self.b.t_prime);
-        let re_squared = te.mul_add(te, self.h * self.h);
+        let re_squared = te.mul_add(te, self.h_squared);
         let two_tau = tau + tau;
         let one_minus = (-tau).mul_add(tau, c(1.0));
         let scale = c(1.0) / self.h.mul_add(one_minus, -(two_tau * te));
@@ -269,18 +277,26 @@ impl<I: Isa> Geometry<I> {
 
         let rest = self.rest(isa, offset, t_prime, I::V::select(from_a, self.b.t_prime, self.a.t_prime));
         let (from_start, to_end) = (I::V::select(from_a, offset, rest), I::V::select(from_a, rest, offset));
-        self.point_between(isa, from_start, to_end, t_prime, self.r(t_prime))
+        self.point_between(isa, from_start, to_end, t_prime)
     }
 
-    /// The point at these distances from the ends, from the foot of the perpendicular, and from the emitter.
+    /// The point at these distances from the ends and from the foot of the perpendicular.
     #[inline(always)]
-    pub(crate) fn point_between(&self, isa: I, from_a: I::V, to_b: I::V, t_prime: I::V, r: I::V) -> Point<I> {
+    pub(crate) fn point_between(&self, isa: I, from_a: I::V, to_b: I::V, t_prime: I::V) -> Point<I> {
         // m from the end where N is smaller: both terms are positive.
         let rising = isa.splat(0.0).le(self.beta);
-        let m_end = I::V::select(rising, self.a.n * self.a.r, self.b.n * self.b.r);
+        let m_end = I::V::select(rising, self.a.m, self.b.m);
         let m = self.beta.abs().mul_add(I::V::select(rising, from_a, to_b), m_end);
         let t = self.distance(t_prime, from_a, to_b);
-        Point { t, t_prime, exact_t_prime: t_prime.widen(), r, m }
+        Point { t, t_prime, exact_t_prime: t_prime.widen(), r: self.r(t_prime), m }
+    }
+
+    /// The same with the `t'` and the `r` of what was rounded to `t`, where `t` is no larger than `r`.
+    #[inline(always)]
+    pub(crate) fn as_rounded(&self, point: Point<I>) -> Point<I> {
+        let exact = point.t.widen() - self.t_h;
+        let t_prime = I::V::select(point.t.lt(point.r), I::V::narrow(exact), point.t_prime);
+        Point { t_prime, exact_t_prime: t_prime.widen(), r: self.r(t_prime), ..point }
     }
 
     /// The point of the ray at the given distance, which may lie outside the lit interval.
@@ -305,8 +321,8 @@ impl<I: Isa> Geometry<I> {
     /// The start of the lit interval.
     #[inline(always)]
     pub(crate) fn start(&self) -> Point<I> {
-        let End { t, t_low: _, t_prime, r, n } = self.a;
-        Point { t, t_prime, exact_t_prime: t_prime.widen(), r, m: n * r }
+        let End { t, t_prime, r, m, .. } = self.a;
+        Point { t, t_prime, exact_t_prime: t_prime.widen(), r, m }
     }
 
     /// The distance of a point of the lit interval from its start \[m\].
@@ -340,9 +356,16 @@ impl<I: Isa> Geometry<I> {
         t.max(self.a.t).min(self.b.t)
     }
 
+    /// The distance to the emitter \[m\].
     #[inline(always)]
-    fn r(&self, t_prime: I::V) -> I::V {
-        t_prime.mul_add(t_prime, self.h * self.h).sqrt()
+    pub(crate) fn r(&self, t_prime: I::V) -> I::V {
+        self.r_squared(t_prime).sqrt()
+    }
+
+    /// Its square.
+    #[inline(always)]
+    pub(crate) fn r_squared(&self, t_prime: I::V) -> I::V {
+        t_prime.mul_add(t_prime, self.h_squared)
     }
 
     /// The cosine `N` at a point.

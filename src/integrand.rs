@@ -13,7 +13,31 @@ pub(crate) struct MediumLanes<I: Isa> {
     pub(crate) g: I::V,
     /// Of the medium alone: where all rays have the same it is expanded once for all.
     pub(crate) phase: Expanded<I>,
+    pub(crate) lobe: Lobe<I>,
     pub(crate) valid: I::Mask,
+}
+
+/// The phase function with `A = 1 + g`, `B = 1 - g`: `1 + g^2 + 2 g sin theta = (A^2 X^2 + B^2 h^2)/(X^2 + h^2)`.
+#[derive(Clone, Copy)]
+pub(crate) struct Lobe<I: Isa> {
+    pub(crate) a2: I::V,
+    pub(crate) b2: I::V,
+    pub(crate) b_over_a: I::V,
+    /// `(1 - g^2)/(4 pi)`.
+    pub(crate) height: I::V,
+}
+
+/// Of this `|g|` is the lobe for all that is larger: at 1 the phase function is none.
+const MOST_FORWARD: f32 = 1.0 - 1.0 / 4096.0;
+
+impl<I: Isa> Lobe<I> {
+    #[inline(always)]
+    fn new(isa: I, g: I::V) -> Self {
+        let g = g.max(isa.splat(-MOST_FORWARD)).min(isa.splat(MOST_FORWARD));
+        let (a, b) = (isa.splat(1.0) + g, isa.splat(1.0) - g);
+        let height = a * b * isa.splat(0.25 * core::f32::consts::FRAC_1_PI);
+        Self { a2: a * a, b2: b * b, b_over_a: b / a, height }
+    }
 }
 
 impl<I: Isa> MediumLanes<I> {
@@ -21,7 +45,7 @@ impl<I: Isa> MediumLanes<I> {
     pub(crate) fn new(isa: I, mu_a: I::V, mu_s: I::V, g: I::V) -> Self {
         let (zero, mu_t) = (isa.splat(0.0), mu_a + mu_s);
         let valid = zero.le(mu_a) & zero.le(mu_s) & mu_t.le(isa.splat(f32::MAX)) & g.abs().le(isa.splat(1.0));
-        Self { mu_s, mu_t, g, phase: Expanded::of_phase(isa, g), valid }
+        Self { mu_s, mu_t, g, phase: Expanded::of_phase(isa, g), lobe: Lobe::new(isa, g), valid }
     }
 }
 

@@ -136,23 +136,70 @@ impl<I: Isa> Group<I> {
     }
 }
 
-/// What became of the lanes: `valid` with what was given, `lit` for the density, and `bisected`.
-#[inline(always)]
-fn count<I: Isa>(valid: I::Mask, lit: I::Mask, bisected: I::Mask) -> Counts {
-    let lanes_of = |mask: I::Mask| I::V::bits(mask).count_ones() as usize;
-    let (valid_count, sampled) = (lanes_of(valid), lanes_of(valid & lit));
-    Counts {
-        sampled,
-        empty: valid_count - sampled,
-        invalid: I::V::N - valid_count,
-        bisected: lanes_of(bisected & valid & lit),
+/// What became of the values: summed in the lanes, and settled over all of them now and then.
+struct Tally<I: Isa> {
+    valid: I::V,
+    sampled: I::V,
+    bisected: I::V,
+    settled: Counts,
+}
+
+impl<I: Isa> Tally<I> {
+    #[inline(always)]
+    fn new(isa: I) -> Self {
+        let zero = isa.splat(0.0);
+        Self { valid: zero, sampled: zero, bisected: zero, settled: Counts::default() }
+    }
+
+    /// One more value for each lane: `valid` with what was given, `lit` for the density, and `bisected`.
+    #[inline(always)]
+    fn add(&mut self, isa: I, valid: I::Mask, lit: I::Mask, bisected: I::Mask) {
+        let (one, zero) = (isa.splat(1.0), isa.splat(0.0));
+        let sampled = valid & lit;
+        self.valid = self.valid + I::V::select(valid, one, zero);
+        self.sampled = self.sampled + I::V::select(sampled, one, zero);
+        self.bisected = self.bisected + I::V::select(bisected & sampled, one, zero);
+    }
+
+    /// Keeps the sums small enough to be exact.
+    #[inline(always)]
+    fn settle(&mut self, isa: I) {
+        let [valid, sampled, bisected] =
+            [sum_of_lanes(isa, self.valid), sum_of_lanes(isa, self.sampled), sum_of_lanes(isa, self.bisected)];
+        let settled = self.settled + Counts { sampled, empty: valid - sampled, invalid: 0, bisected };
+        *self = Self { settled, ..Self::new(isa) };
+    }
+
+    /// Of so many values.
+    #[inline(always)]
+    fn counts(mut self, isa: I, values: usize) -> Counts {
+        self.settle(isa);
+        let Counts { sampled, empty, bisected, .. } = self.settled;
+        Counts { sampled, empty, invalid: values - sampled - empty, bisected }
     }
 }
 
-/// The lane groups of a chunk, each visited once.
+/// The sum of whole numbers.
 #[inline(always)]
-fn for_each_group<I: Isa>(isa: I, inputs: &Inputs<'_>, mut visit: impl FnMut(Group<I>) -> Counts) -> Counts {
-    let mut counts = Counts::default();
+fn sum_of_lanes<I: Isa>(isa: I, lanes: I::V) -> usize {
+    let mut values = [0.0; MOST_LANES];
+    isa.store(lanes, &mut I::groups_mut(&mut values)[0]);
+    let mut sum = 0.0;
+    for value in values {
+        sum += value;
+    }
+    sum as usize
+}
+
+/// The lane groups of a chunk, each visited once; a visit adds `turns` values for each lane.
+#[inline(always)]
+fn for_each_group<I: Isa>(
+    isa: I,
+    inputs: &Inputs<'_>,
+    turns: usize,
+    mut visit: impl FnMut(Group<I>, &mut Tally<I>),
+) -> Counts {
+    let mut tally = Tally::new(isa);
     let rays = inputs.ray_groups::<I>();
     let (mut emitter, mut medium) = (inputs.emitters.lanes(isa, 0), inputs.media.lanes(isa, 0));
     for index in 0..rays.count() {
@@ -161,9 +208,9 @@ fn for_each_group<I: Isa>(isa: I, inputs: &Inputs<'_>, mut visit: impl FnMut(Gro
             inputs.media.renew(isa, index, &mut medium);
         }
         let geometry = Geometry::new(isa, &rays.lanes(isa, index), &emitter);
-        counts = counts + visit(Group { geometry, medium, index });
+        visit(Group { geometry, medium, index }, &mut tally);
     }
-    counts
+    tally.counts(isa, turns * rays.count() * I::V::N)
 }
 
 /// What is given for a lane group, turn by turn.
@@ -172,15 +219,19 @@ fn for_each_turn<I: Isa>(
     isa: I,
     inputs: &Inputs<'_>,
     group: usize,
-    mut visit: impl FnMut(Turn, I::V) -> Counts,
-) -> Counts {
-    let mut counts = Counts::default();
+    tally: &mut Tally<I>,
+    mut visit: impl FnMut(Turn, I::V, &mut Tally<I>),
+) {
     for index in 0..inputs.per_ray {
+        if index > 0 && index % TURNS_TO_SETTLE == 0 {
+            tally.settle(isa);
+        }
         let turn = Turn { group, index, per_ray: inputs.per_ray };
-        counts = counts + visit(turn, turn.load(isa, inputs.given));
+        visit(turn, turn.load(isa, inputs.given), tally);
     }
-    counts
 }
+/// After so many f32 still counts every value that a chunk has beside.
+const TURNS_TO_SETTLE: usize = 1 << 16;
 
 /// Draws a distance for every variate that is given.
 pub(crate) struct Sample;
@@ -197,22 +248,24 @@ impl Task for Sample {
 impl OfDensity for Sample {
     #[inline(always)]
     fn chunk<I: Isa, D: Density<I>>(isa: I, inputs: &Inputs<'_>, out: Samples<'_>) -> Counts {
-        // Apart, as what a weight is made of would be kept in memory where nobody asks for it.
-        match out.weight {
-            Some(_) => sample::<I, D, true>(isa, inputs, out),
-            None => sample::<I, D, false>(isa, inputs, out),
+        // Apart, as what weights are made of would be computed, and kept in memory, where nobody asks for them.
+        if out.weight.is_some() || out.r.is_some() {
+            sample::<I, D, true>(isa, inputs, out)
+        } else {
+            sample::<I, D, false>(isa, inputs, out)
         }
     }
 }
 
 #[inline(always)]
-fn sample<I: Isa, D: Density<I>, const WEIGHTED: bool>(isa: I, inputs: &Inputs<'_>, mut out: Samples<'_>) -> Counts {
+fn sample<I: Isa, D: Density<I>, const ALL: bool>(isa: I, inputs: &Inputs<'_>, mut out: Samples<'_>) -> Counts {
     let zero = isa.splat(0.0);
     for_each_group(
         isa,
         inputs,
+        inputs.per_ray,
         #[inline(always)]
-        |group| {
+        |group, tally| {
             let Group { geometry, medium, index } = &group;
             let density = D::new(isa, geometry, medium);
             let lit = D::lit(isa, geometry);
@@ -220,24 +273,25 @@ fn sample<I: Isa, D: Density<I>, const WEIGHTED: bool>(isa: I, inputs: &Inputs<'
                 isa,
                 inputs,
                 *index,
+                tally,
                 #[inline(always)]
-                |turn, u| {
+                |turn, u, tally| {
                     let valid = group.valid() & zero.le(u) & u.le(isa.splat(1.0));
                     let sampled = valid & lit;
                     let drawn = density.invert(isa, geometry, u);
                     turn.store(isa, I::V::select(sampled, drawn.point.t, zero), out.t);
                     turn.store(isa, I::V::select(sampled, drawn.pdf.over_t, zero), out.pdf);
-                    if WEIGHTED && let Some(weight) = &mut out.weight {
+                    if ALL && let Some(weight) = &mut out.weight {
                         let value = integrand_r2(isa, geometry, medium, &drawn.point) / drawn.pdf.times_r2;
                         let possible = sampled & zero.lt(drawn.pdf.times_r2);
                         turn.store(isa, I::V::select(possible, value.min(isa.splat(f32::MAX)), zero), weight);
                     }
-                    if let Some(r) = &mut out.r {
+                    if ALL && let Some(r) = &mut out.r {
                         turn.store(isa, I::V::select(sampled, drawn.point.r, zero), r);
                     }
-                    count::<I>(valid, lit, drawn.bisected)
+                    tally.add(isa, valid, lit, drawn.bisected);
                 },
-            )
+            );
         },
     )
 }
@@ -261,8 +315,9 @@ impl OfDensity for Pdf {
         for_each_group(
             isa,
             inputs,
+            inputs.per_ray,
             #[inline(always)]
-            |group| {
+            |group, tally| {
                 let Group { geometry, medium, index } = &group;
                 let density = D::new(isa, geometry, medium);
                 let (lit, [low, high]) = (D::lit(isa, geometry), D::support(geometry));
@@ -270,15 +325,16 @@ impl OfDensity for Pdf {
                     isa,
                     inputs,
                     *index,
+                    tally,
                     #[inline(always)]
-                    |turn, t| {
+                    |turn, t, tally| {
                         let valid = group.valid() & t.eq(t);
                         let inside = valid & lit & low.le(t) & t.le(high);
                         let pdf = density.pdf(isa, geometry, &geometry.point_at_distance(isa, t));
                         turn.store(isa, I::V::select(inside, pdf.over_t, zero), out);
-                        count::<I>(valid, lit, none(isa))
+                        tally.add(isa, valid, lit, none(isa));
                     },
-                )
+                );
             },
         )
     }
@@ -296,23 +352,25 @@ impl Task for Evaluate {
         for_each_group(
             isa,
             inputs,
+            inputs.per_ray,
             #[inline(always)]
-            |group| {
+            |group, tally| {
                 let Group { geometry, medium, index } = &group;
                 for_each_turn(
                     isa,
                     inputs,
                     *index,
+                    tally,
                     #[inline(always)]
-                    |turn, t| {
+                    |turn, t, tally| {
                         let valid = group.valid() & t.eq(t);
                         let inside = valid & geometry.lit & geometry.t_min.le(t) & t.le(geometry.t_max);
                         let point = geometry.point_at_distance(isa, t);
                         let f = integrand_r2(isa, geometry, medium, &point) / (point.r * point.r);
                         turn.store(isa, I::V::select(inside, f.min(isa.splat(f32::MAX)), zero), out);
-                        count::<I>(valid, geometry.lit, none(isa))
+                        tally.add(isa, valid, geometry.lit, none(isa));
                     },
-                )
+                );
             },
         )
     }
@@ -346,15 +404,16 @@ fn radiance<I: Isa, const K: usize>(isa: I, inputs: &Inputs<'_>, out: &mut [f32]
     for_each_group(
         isa,
         inputs,
+        1,
         #[inline(always)]
-        |group| {
+        |group, tally| {
             let Group { geometry, medium, index } = &group;
             let lit = Product::<I, K>::lit(isa, geometry);
             let sampled = group.valid() & lit;
             let radiance = Product::<I, K>::new(isa, geometry, medium).radiance(isa, geometry, medium);
             let value = I::V::select(sampled, radiance.min(isa.splat(f32::MAX)), zero);
             Turn { group: *index, index: 0, per_ray: 1 }.store(isa, value, out);
-            count::<I>(group.valid(), lit, none(isa))
+            tally.add(isa, group.valid(), lit, none(isa));
         },
     )
 }

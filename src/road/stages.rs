@@ -3,7 +3,7 @@
 //! What a stage has computed is kept from being optimised away by `black_box`, for which it is written to memory: a few
 //! ns per lane group that the whole road does not pay, as it keeps such values in registers where it can.
 
-use super::{Group, OfDensity, Task, by_strategy, count, for_each_group, for_each_turn};
+use super::{Group, OfDensity, Task, by_strategy, for_each_group, for_each_turn};
 use crate::Strategy;
 use crate::batch::{Counts, Inputs, Outputs};
 use crate::density::Density;
@@ -53,19 +53,20 @@ impl OfDensity for UpTo {
         for_each_group(
             isa,
             inputs,
+            inputs.per_ray,
             #[inline(always)]
-            |group| {
+            |group, tally| {
                 // Values, not references, go into the black box: the stages beyond keep theirs in registers.
                 if stage == Stage::Geometry {
                     let (valid, lit) = (group.valid(), group.geometry.lit);
                     black_box((group.geometry, group.medium.mu_t));
-                    return count::<I>(valid, lit, none(isa));
+                    return tally.add(isa, valid, lit, none(isa));
                 }
                 let density = D::new(isa, &group.geometry, &group.medium);
                 if stage == Stage::SetUp {
                     let (valid, lit) = (group.valid(), D::lit(isa, &group.geometry));
                     black_box((group.geometry, density));
-                    return count::<I>(valid, lit, none(isa));
+                    return tally.add(isa, valid, lit, none(isa));
                 }
                 let lit = D::lit(isa, &group.geometry);
                 let Group { geometry, index, .. } = &group;
@@ -73,15 +74,16 @@ impl OfDensity for UpTo {
                     isa,
                     inputs,
                     *index,
+                    tally,
                     #[inline(always)]
-                    |_, u| {
+                    |_, u, tally| {
                         let valid = group.valid() & zero.le(u) & u.le(isa.splat(1.0));
                         let drawn = density.invert(isa, geometry, u);
                         let bisected = drawn.bisected;
                         black_box(drawn);
-                        count::<I>(valid, lit, bisected)
+                        tally.add(isa, valid, lit, bisected);
                     },
-                )
+                );
             },
         )
     }

@@ -17,6 +17,19 @@ pub(crate) fn horner<I: Isa, const K: usize>(isa: I, x: I::V, c: [f32; K]) -> I:
     p
 }
 
+/// The same by the even and the odd terms apart: two chains of half the length, for where nothing else is to be done.
+#[inline(always)]
+fn even_and_odd<I: Isa, const K: usize>(isa: I, x: I::V, c: [f32; K]) -> I::V {
+    let z = x * x;
+    let (mut p, mut q) = (isa.splat(c[0]), isa.splat(c[1]));
+    let mut k = 2;
+    while k < K {
+        (p, q) = (q, p.mul_add(z, isa.splat(c[k])));
+        k += 1;
+    }
+    p.mul_add(x, q)
+}
+
 /// The same in double precision.
 #[inline(always)]
 pub(crate) fn horner_double<I: Isa, const K: usize>(isa: I, x: I::Double, c: [f64; K]) -> I::Double {
@@ -48,7 +61,7 @@ pub(crate) fn angle_of<I: Isa>(isa: I, y: I::V, x: I::V) -> I::V {
     let size = x.abs();
     let q = size.min(y) / size.max(y);
     let z = q * q;
-    let p = horner(
+    let p = even_and_odd(
         isa,
         z,
         [
@@ -106,7 +119,12 @@ pub(crate) fn exp<I: Isa>(isa: I, x: I::Double) -> I::V {
 /// `1/x` in f64 by a Newton step, for `x` in `[2^-100, 2^100]`. Max error 1e-14, relative.
 #[inline(always)]
 pub(crate) fn reciprocal<I: Isa>(isa: I, x: I::Double) -> I::Double {
-    let near = (isa.splat(1.0) / I::V::narrow(x)).widen();
+    reciprocal_near(isa, x, (isa.splat(1.0) / I::V::narrow(x)).widen())
+}
+
+/// The same from what an f32 division gives.
+#[inline(always)]
+pub(crate) fn reciprocal_near<I: Isa>(isa: I, x: I::Double, near: I::Double) -> I::Double {
     near * (isa.splat_double(2.0) - x * near)
 }
 

@@ -116,7 +116,9 @@ pub(crate) trait Isa: Copy {
 /// No lane.
 #[inline(always)]
 pub(crate) fn none<I: Isa>(isa: I) -> I::Mask {
-    isa.splat(1.0).lt(isa.splat(0.0))
+    // In a form that compilers see to be constant.
+    let mask = isa.splat(1.0).lt(isa.splat(0.0));
+    mask & !mask
 }
 
 /// Code that is written once and run by one of several instruction sets.

@@ -28,6 +28,6 @@ impl<I: Isa> Density<I> for EquiAngular<I> {
 
     #[inline(always)]
     fn pdf(&self, isa: I, geometry: &Geometry<I>, point: &Point<I>) -> Pdf<I> {
-        Pdf::over_angle(isa.splat(1.0) / self.subtended, geometry.h, point.r)
+        Pdf::over_angle(isa.splat(1.0) / self.subtended, geometry, point)
     }
 }

@@ -75,6 +75,6 @@ impl<I: Isa> Density<I> for PointNormal<I> {
 
     #[inline(always)]
     fn pdf(&self, isa: I, geometry: &Geometry<I>, point: &Point<I>) -> Pdf<I> {
-        Pdf::over_angle(geometry.cosine(isa, point) / self.mass, geometry.h, point.r)
+        Pdf::over_angle(geometry.cosine(isa, point) / self.mass, geometry, point)
     }
 }

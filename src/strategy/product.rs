@@ -11,7 +11,7 @@
 
 use crate::density::{Density, Drawn, Pdf};
 use crate::geometry::{End, Geometry, Point};
-use crate::integrand::{MediumLanes, transmittance};
+use crate::integrand::{Lobe, MediumLanes, transmittance};
 use crate::simd::math::{one_minus_exp, reciprocal};
 use crate::simd::{Isa, Lanes, Number, none};
 
@@ -49,9 +49,6 @@ const NEXT_TO_DARK: f32 = 0.25;
 const LEAST_IN_THE_DARK: f32 = 0.0625;
 /// The least share of the integrand that it keeps between the ends.
 const LEAST: f32 = 0.5;
-
-/// Of this `|g|` is the density for all that is larger: at 1 the phase function is none.
-const MOST_FORWARD: f32 = 1.0 - 1.0 / 4096.0;
 
 /// No length is resolved below this \[m\].
 const SHORTEST: f32 = 1e-18;
@@ -184,10 +181,8 @@ impl<I: Isa, const K: usize> Product<I, K> {
     /// The integral of the integrand, as the knots have it \[1/m^2\].
     #[inline(always)]
     pub(crate) fn radiance(&self, isa: I, geometry: &Geometry<I>, medium: &MediumLanes<I>) -> I::V {
-        let g = medium.g.max(isa.splat(-MOST_FORWARD)).min(isa.splat(MOST_FORWARD));
-        let phase = (isa.splat(1.0) - g) * (isa.splat(1.0) + g) * isa.splat(0.25 * core::f32::consts::FRAC_1_PI);
         let start = transmittance(isa, geometry, medium, &geometry.start());
-        medium.mu_s * start * (phase * self.mass)
+        medium.mu_s * start * (medium.lobe.height * self.mass)
     }
 
     /// From a density over `v` where `Y + Y_c = Y_c/s`: `dv/dt = (dv/dY) X/r`.
@@ -213,15 +208,13 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
     fn new(isa: I, geometry: &Geometry<I>, medium: &MediumLanes<I>) -> Self {
         let c = |x| isa.splat(x);
         let (g, one) = (geometry, c(1.0));
-        let phase_g = medium.g.max(c(-MOST_FORWARD)).min(c(MOST_FORWARD));
-        let (forward, backward) = (one + phase_g, one - phase_g);
-        let (a2, b2) = (forward * forward, backward * backward);
+        let Lobe { a2, b2, b_over_a, .. } = medium.lobe;
 
         let inv_h = one / g.h;
         let (x_a, h_x_a) = x_and_h_over_it(isa, g, inv_h, &g.a);
         let (x_b, h_x_b) = x_and_h_over_it(isa, g, inv_h, &g.b);
         let y_b = g.length * ((x_a + x_b) / (g.a.r + g.b.r));
-        let reach = x_a.mul_add(c(1.5), c(1.25) * g.h * (backward / forward));
+        let reach = x_a.mul_add(c(1.5), c(1.25) * g.h * b_over_a);
         let inv_y_c = medium.mu_t.mul_add(c(0.45), one / reach).min(c(1.0 / SHORTEST));
         let y_c = one / inv_y_c;
         let e = y_c / y_b;
@@ -235,7 +228,7 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
         let (h_c, x_c, y_c_c) = (w_0 * h_c, w_0 * x_c, w_0 * scale);
         // m = n.(x - y) in units of the end where N is smaller.
         let rising = c(0.0).le(g.beta);
-        let m_end = w_0 * I::V::select(rising, g.a.n * g.a.r, g.b.n * g.b.r) * inv_y_c;
+        let m_end = w_0 * I::V::select(rising, g.a.m, g.b.m) * inv_y_c;
         let half_beta = c(0.5) * g.beta.abs() * I::V::select(rising, w_0, inv_e);
         let h_x = I::V::select(rising, h_x_a, h_x_b);
 
@@ -309,8 +302,9 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
         let (scale_a, scale_b) = (g.a.t_prime.abs() + from_a, g.b.t_prime.abs() + to_b);
         let by_end = I::V::select(scale_a.lt(scale_b), g.a.t_prime + from_a, g.b.t_prime - to_b);
         let by_x = half * (x - g.h * h_x);
-        let t_prime = I::V::select(scale_a.min(scale_b).lt(r), by_end, by_x).max(g.a.t_prime).min(g.b.t_prime);
-        let point = g.point_between(isa, from_a, to_b, t_prime, r);
+        let near_end = scale_a.min(scale_b).lt(r);
+        let t_prime = I::V::select(near_end, by_end, by_x).max(g.a.t_prime).min(g.b.t_prime);
+        let point = g.as_rounded(g.point_between(isa, from_a, to_b, t_prime));
         let s = (self.e + rest) * self.w_0;
         let pdf = self.pdf_over_v(isa, p_v, s, x, r);
         Drawn { point, pdf, bisected: none(isa) }

@@ -258,7 +258,7 @@ impl<I: Isa, E> Taylor<I, E> {
     fn at(&self, isa: I, geometry: &Geometry<I>, point: &Point<I>, theta: I::Double) -> Pdf<I> {
         let p = I::V::narrow(horner_lanes(theta.min(self.theta_c), self.p));
         let p_theta = p * geometry.cosine(isa, point) / (self.mass_1 + self.mass_2);
-        Pdf::over_angle(p_theta, geometry.h, point.r)
+        Pdf::over_angle(p_theta, geometry, point)
     }
 }
 
