@@ -102,7 +102,9 @@ pub(crate) struct Geometry<I: Isa> {
     beta_exact: I::Double,
     /// Which lanes have an emitter with a normal.
     pub(crate) has_normal: I::Mask,
-    /// Which lanes have a part that is lit.
+    /// Which lanes have a part that the emitter faces.
+    pub(crate) faced: I::Mask,
+    /// Of which of these f32 can say how much light it gets.
     pub(crate) lit: I::Mask,
     /// Which lanes hold a ray and an emitter at all.
     pub(crate) valid: I::Mask,
@@ -181,10 +183,11 @@ impl<I: Isa> Geometry<I> {
             n: I::V::select(has_normal, m_b / rb, c(1.0)),
         };
 
-        // Below these f32 has no more to say about an interval: it subtends 1e-30 rad, or is 1e-36 of r^2.
-        // By half the square of |t'| + h, which is between r and the root of 2 r^2.
-        let rr = (ta.abs() + h) * (tb.abs() + h);
-        let wide = c(1e-18).lt(length) & (rr * c(0.5e-30)).lt(h * length) & (rr * c(0.5e-36)).lt(length);
+        // Below these f32 has no more to say about an interval: it subtends 1e-30 rad, or is 1e-36 of r^2. For r, without
+        // its root, |t'| + h is at most 1.42 times too much.
+        let faced = c(1e-18).lt(length) & !both;
+        let rr = (ta.abs() + h) * (tb.abs() + h) * c(0.5);
+        let wide = (rr * c(1e-30)).lt(h * length) & (rr * c(1e-36)).lt(length);
         let valid = emitter.valid
             & I::V::narrow(q).abs().le(c(TOLERANCE))
             & largest::<I>(ray.origin).le(c(FARTHEST))
@@ -211,7 +214,8 @@ impl<I: Isa> Geometry<I> {
             alpha_h,
             beta_exact,
             has_normal,
-            lit: wide & !both,
+            faced,
+            lit: faced & wide,
             valid,
         }
     }

@@ -50,6 +50,12 @@ impl<I: Isa> Density<I> for Transmittance<I> {
         Pdf::over_distance(self.at(isa, point.t - geometry.t_min), point.r)
     }
 
+    /// However little it is: this density knows no emitter.
+    #[inline(always)]
+    fn lit(_: I, geometry: &Geometry<I>) -> I::Mask {
+        geometry.faced
+    }
+
     #[inline(always)]
     fn support(geometry: &Geometry<I>) -> [I::V; 2] {
         [geometry.t_min, geometry.t_max]
