@@ -83,7 +83,7 @@ pub struct Counts {
     pub empty: usize,
     /// Rays with a value that is NaN or out of range.
     pub invalid: usize,
-    /// Sampled rays whose Newton iteration fell back to bisection at least once, or took more than 8 steps.
+    /// Sampled rays whose iteration fell back to bisection at least once, or took more than 8 steps.
     pub bisected: usize,
 }
 

@@ -1,9 +1,10 @@
-//! Newton's method with the curvature seen to, inside a shrinking bracket, with bisection where a step leaves it.
+//! Chebyshev's method, which is Newton's with the curvature seen to, inside a shrinking bracket, with bisection where a
+//! step leaves it.
 
 use crate::simd::{Isa, Lanes, Number, none};
 
-/// Steps of Newton's method that a lane may take before it counts as bisected.
-const NEWTON_STEPS: usize = 8;
+/// Steps that a lane may take before it counts as bisected.
+const FEW_STEPS: usize = 8;
 /// Steps after which the iteration ends in any case.
 const STEPS: usize = 24;
 
@@ -14,7 +15,7 @@ const LEFT: f32 = 16384.0;
 /// Where an increasing function takes a value.
 pub(crate) struct Root<I: Isa> {
     pub(crate) x: I::V,
-    /// Which lanes bisected at least once, or took more than [`NEWTON_STEPS`].
+    /// Which lanes bisected at least once, or took more than [`FEW_STEPS`].
     pub(crate) bisected: I::Mask,
 }
 
@@ -28,10 +29,10 @@ pub(crate) struct At<I: Isa> {
 
 /// Solves `f(x) = 0` for `x` in `[low, high]`, where `f` increases.
 ///
-/// Each step shrinks the bracket by the sign of `f`, then goes to Chebyshev's point, Newton's with the curvature seen
-/// to, if that lies inside, else to the middle. A lane stops where `|f| <= tolerance`, or after a step so short that
-/// little can be left, at most four times the tolerance where the curvature is rough: what a lane does depends on no
-/// other lane. The result lies in the bracket whatever `f` returns.
+/// Each step shrinks the bracket by the sign of `f`, then goes to Chebyshev's point if that lies inside, else to the
+/// middle. A lane stops where `|f| <= tolerance`, or after a step so short that little can be left, at most four times the
+/// tolerance where the curvature is rough: what a lane does depends on no other lane. The result lies in the bracket
+/// whatever `f` returns.
 #[inline(always)]
 pub(crate) fn solve<I: Isa>(
     isa: I,
@@ -57,7 +58,7 @@ pub(crate) fn solve<I: Isa>(
         let bend = (newton * one_over * curvature).max(c(-1.0)).min(c(1.0));
         let next = x - newton.mul_add(bend * c(0.5), newton);
         let inside = low.le(next) & next.le(high);
-        let late = if step < NEWTON_STEPS { !inside } else { active };
+        let late = if step < FEW_STEPS { !inside } else { active };
         bisected = bisected | (active & late);
         x = I::V::select(active, I::V::select(inside, next, (low + high) * c(0.5)), x);
         // What such a step leaves is of third order.

@@ -56,6 +56,23 @@ fn they_are_those_of_one_each() {
     }
 }
 
+/// More than the lanes of a kernel tally before they settle.
+#[test]
+fn any_number_is_counted() {
+    let per_ray = 3 * (1 << 16) + 5;
+    let columns = columns(32);
+    let (rays, emitters, media) = (columns.rays(), columns.emitters(), columns.media());
+    let sampler = Sampler::new(Strategy::EquiAngular);
+    let [of_many, of_one] = [per_ray, 1].map(|k| {
+        let u = vec![0.5; 32 * k];
+        let (mut t, mut pdf) = (vec![f32::NAN; u.len()], vec![f32::NAN; u.len()]);
+        let mut samples = Samples { t: &mut t, pdf: &mut pdf, weight: None, r: None };
+        sampler.sample(&rays, &emitters, &media, &u, &mut samples).unwrap()
+    });
+    assert!(of_one.sampled > 0 && of_one.empty > 0 && of_one.invalid > 0, "{of_one:?}");
+    assert_eq!(of_many, sum(std::iter::repeat_n(of_one, per_ray)));
+}
+
 #[test]
 fn no_part_of_a_ray_is_sampled() {
     let columns = columns(RAYS);

@@ -17,19 +17,6 @@ pub(crate) fn horner<I: Isa, const K: usize>(isa: I, x: I::V, c: [f32; K]) -> I:
     p
 }
 
-/// The same by the even and the odd terms apart: two chains of half the length, for where nothing else is to be done.
-#[inline(always)]
-fn even_and_odd<I: Isa, const K: usize>(isa: I, x: I::V, c: [f32; K]) -> I::V {
-    let z = x * x;
-    let (mut p, mut q) = (isa.splat(c[0]), isa.splat(c[1]));
-    let mut k = 2;
-    while k < K {
-        (p, q) = (q, p.mul_add(z, isa.splat(c[k])));
-        k += 1;
-    }
-    p.mul_add(x, q)
-}
-
 /// The same in double precision.
 #[inline(always)]
 pub(crate) fn horner_double<I: Isa, const K: usize>(isa: I, x: I::Double, c: [f64; K]) -> I::Double {
@@ -61,7 +48,7 @@ pub(crate) fn angle_of<I: Isa>(isa: I, y: I::V, x: I::V) -> I::V {
     let size = x.abs();
     let q = size.min(y) / size.max(y);
     let z = q * q;
-    let p = even_and_odd(
+    let p = horner(
         isa,
         z,
         [

@@ -140,3 +140,36 @@ fn apart<T: Copy, const K: usize>(pairs: &[Pair<T>; K]) -> ([T; K], [T; K]) {
     }
     (low, high)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use wide::f32x8;
+
+    /// A small whole number, another one in every lane.
+    fn number(k: usize) -> Pair<f32x8> {
+        let half =
+            |first: usize| f32x8::new(std::array::from_fn(|lane| ((7 * k + 3 * (first + lane)) % 11) as f32 - 5.0));
+        Pair(half(0), half(8))
+    }
+
+    fn lanes(pair: Pair<f32x8>) -> [[f32; 8]; 2] {
+        [pair.0.to_array(), pair.1.to_array()]
+    }
+
+    /// Products of small whole numbers and their sums are exact.
+    #[test]
+    fn polynomials_are_multiplied_lane_by_lane() {
+        let (p, q): ([_; 4], [_; 6]) = (std::array::from_fn(number), std::array::from_fn(|k| number(k + 20)));
+        let product: [_; 9] = Pair::multiply(&p, &q);
+        for (k, product) in product.into_iter().enumerate() {
+            let mut sum = Pair(f32x8::ZERO, f32x8::ZERO);
+            for (i, p) in p.into_iter().enumerate() {
+                if let Some(q) = k.checked_sub(i).and_then(|j| q.get(j)) {
+                    sum = sum + p * *q;
+                }
+            }
+            assert_eq!(lanes(product), lanes(sum), "degree {k}");
+        }
+    }
+}

@@ -2,7 +2,7 @@
 //!
 //! `P` is the order-6 expansion about `theta = 0` of the transmittance or of the phase function. It is trusted up to
 //! `theta_c` and keeps the value it has there beyond, which makes the density positive for every input. So there are
-//! two pieces: below `theta_c` the CDF is inverted by Newton's method, above it is that of the point-normal density.
+//! two pieces: below `theta_c` the CDF is inverted by iteration, above it is that of the point-normal density.
 //!
 //! On the first piece everything is a polynomial of the local variable `x` in `[-1, 1]` around its middle: `P` shifted
 //! there, `N` by its sine and cosine series. The closed form (22) of the same integral cancels catastrophically on
