@@ -58,17 +58,22 @@ pub fn bounds(strategy: Strategy, family: Family) -> Vec<Bound> {
     // Aimed at 8 at most. Exact arithmetic from h and t' rounded has up to 2.1 (`offset_floor`). A dozen roundings follow,
     // of the angle, its tangent and the point, and a right angle takes what they leave 1.6 times: in 2^20 rays of every
     // family 12 were seen, and 6.8 at p99.99; of the point-normal density, with as many more, 19, and 6.8 at p99.9.
+    // Of arbitrary bits one in twenty is a ray: of few, high quantiles are the very worst.
+    let many = family != Family::RandomBits;
     if strategy == Strategy::EquiAngular {
-        bounds.push(Bound { figure: "offset_p9999", read: |e| quantile(&e.offset, 0.9999), limit: 8.0 });
+        if many {
+            bounds.push(Bound { figure: "offset_p9999", read: |e| quantile(&e.offset, 0.9999), limit: 8.0 });
+        }
         bounds.push(Bound { figure: "offset_max", read: |e| quantile(&e.offset, 1.0), limit: 16.0 });
     }
     if strategy == Strategy::PointNormal {
-        bounds.push(Bound { figure: "offset_p999", read: |e| quantile(&e.offset, 0.999), limit: 8.0 });
+        if many {
+            bounds.push(Bound { figure: "offset_p999", read: |e| quantile(&e.offset, 0.999), limit: 8.0 });
+        }
         bounds.push(Bound { figure: "offset_max", read: |e| quantile(&e.offset, 1.0), limit: 24.0 });
     }
-    // Aimed at 64, seen 50; 93 where a product density vanishes. Of arbitrary bits one in twenty is a ray: p99.99 of them
-    // would be the very worst.
-    if family != Family::RandomBits {
+    // Aimed at 64, seen 50; 93 where a product density vanishes.
+    if many {
         let limit = if vanishing(strategy, family) { 128.0 } else { 64.0 };
         bounds.push(Bound { figure: "pdf_p9999", read: |e| quantile(&e.pdf, 0.9999), limit });
     }
