@@ -77,9 +77,10 @@ pub struct Samples<'a> {
 pub struct Counts {
     /// Rays with a sample.
     pub sampled: usize,
-    /// Valid rays without one: `t_min = t_max`, or no point of the ray is lit, or less than f32 can say anything about:
-    /// an interval shorter than 1e-18 m, or than 1e-36 of `r^2`, or that subtends 1e-30 rad, or for densities with the
-    /// cosine 1e-25 of the light.
+    /// Valid rays without one: `t_min = t_max`, or no point of the ray is lit, or less than f32 can say anything about: an
+    /// interval shorter than 1e-18 m; for all densities but the transmittance also one shorter than about 1e-36 of `r^2`,
+    /// or that subtends about 1e-30 rad; for those with the cosine 1e-25 of the light; or a ray that meets the emitter's
+    /// plane, but at an angle below 1e-30 rad.
     pub empty: usize,
     /// Rays with a value that is NaN or out of range.
     pub invalid: usize,

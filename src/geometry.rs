@@ -42,6 +42,9 @@ impl<I: Isa> EmitterLanes<I> {
 /// By how much the square of a unit vector's length may differ from 1.
 const TOLERANCE: f32 = 2.001 * UNIT_TOLERANCE;
 
+/// Sine of the least angle between a ray and the emitter's plane of which it is known where they meet.
+const FLATTEST: f32 = 1e-30;
+
 /// One end of the lit interval.
 #[derive(Clone, Copy)]
 pub(crate) struct End<I: Isa> {
@@ -53,7 +56,7 @@ pub(crate) struct End<I: Isa> {
     pub(crate) t_prime: I::V,
     /// Distance to the emitter \[m\].
     pub(crate) r: I::V,
-    /// `n.(x - y) = N r` there \[m\]: exactly 0 where the interval was clipped.
+    /// `n.(x - y) = N r` there \[m\], whatever it is without a normal: exactly 0 where the interval was clipped.
     pub(crate) m: I::V,
     /// The cosine `N`; 1 without a normal.
     pub(crate) n: I::V,
@@ -78,6 +81,7 @@ pub(crate) struct Point<I: Isa> {
 pub(crate) struct Geometry<I: Isa> {
     /// Distance from the emitter to the ray's line \[m\].
     pub(crate) h: I::V,
+    /// Its square, rounded once.
     h_squared: I::V,
     /// `alpha = n.u`: with `beta`, the cosine is `N = alpha cos theta + beta sin theta`, (21).
     pub(crate) alpha: I::V,
@@ -92,7 +96,7 @@ pub(crate) struct Geometry<I: Isa> {
     /// Ends of the ray itself \[m\].
     pub(crate) t_min: I::V,
     pub(crate) t_max: I::V,
-    /// `h^2`, unless below that of `least_h`.
+    /// The square in f64, unless below that of `least_h`.
     foot_squared: I::Double,
     least_h: I::V,
     t_h: I::Double,
@@ -104,7 +108,7 @@ pub(crate) struct Geometry<I: Isa> {
     pub(crate) has_normal: I::Mask,
     /// Which lanes have a part that the emitter faces.
     pub(crate) faced: I::Mask,
-    /// Of which of these f32 can say how much light it gets.
+    /// Which of these an interval of which f32 can tell angle and length from none.
     pub(crate) lit: I::Mask,
     /// Which lanes hold a ray and an emitter at all.
     pub(crate) valid: I::Mask,
@@ -147,11 +151,13 @@ impl<I: Isa> Geometry<I> {
         let m_b = I::V::narrow(beta_exact.mul_add(t_prime_max, alpha_h));
         let dark_a = has_normal & m_a.le(c(0.0));
         let dark_b = has_normal & m_b.le(c(0.0));
-        let both = dark_a & dark_b;
+        let beta = I::V::narrow(beta_exact);
+        // A ray so flat against the emitter's plane is not cut there: it is dark or it is not.
+        let flat = beta.abs().lt(c(FLATTEST));
+        let both = (dark_a & dark_b) | (flat & (dark_a | dark_b));
         let (clip_a, clip_b) = (dark_a & !dark_b, dark_b & !dark_a);
 
         // Where N = 0: a Newton step after the division, as what is lit may be as short as what it leaves.
-        let beta = I::V::narrow(beta_exact);
         let inv_beta = c(1.0) / beta;
         let near = inv_beta.widen();
         let once = -(alpha_h * reciprocal_near(isa, beta_exact, near));
@@ -183,8 +189,8 @@ impl<I: Isa> Geometry<I> {
             n: I::V::select(has_normal, m_b / rb, c(1.0)),
         };
 
-        // Below these f32 has no more to say about an interval: it subtends 1e-30 rad, or is 1e-36 of r^2. For r, without
-        // its root, |t'| + h is at most 1.42 times too much.
+        // Below these f32 has no more to say about an interval: it subtends 1e-30 rad, or is 1e-36 of r^2. Without a root:
+        // (|t'| + h)/1.42 is r or up to 1.42 times less.
         let faced = c(1e-18).lt(length) & !both;
         let rr = (ta.abs() + h) * (tb.abs() + h) * c(0.5);
         let wide = (rr * c(1e-30)).lt(h * length) & (rr * c(1e-36)).lt(length);
@@ -224,20 +230,30 @@ impl<I: Isa> Geometry<I> {
     /// to say in f32.
     #[inline(always)]
     pub(crate) fn bright(&self, isa: I) -> I::Mask {
+        let least = isa.splat(1e-25);
         let rr = self.a.r * self.b.r;
         let light = (self.h * self.length) * (self.a.n + self.b.n);
-        self.dot_of_ends().lt(isa.splat(0.0)) | (rr * isa.splat(1e-25)).lt(light)
+        (self.wide(isa) & (self.h * least).lt(self.greatest_cosine_h())) | (rr * least).lt(light)
+    }
+
+    /// Which lanes have an interval that subtends more than a right angle.
+    #[inline(always)]
+    pub(crate) fn wide(&self, isa: I) -> I::Mask {
+        self.dot_of_ends().lt(isa.splat(0.0))
+    }
+
+    /// `h (|alpha| + |beta|)` \[m\]: no cosine is larger, nor the largest one less than two thirds of it.
+    #[inline(always)]
+    fn greatest_cosine_h(&self) -> I::V {
+        self.beta.abs().mul_add(self.h, I::V::narrow(self.alpha_h).abs())
     }
 
     /// Which ends have less than `share` of `|alpha| + |beta|`, the size of the cosine, or where the interval subtends less
     /// than a right angle, of the sum of those at the ends.
     #[inline(always)]
     pub(crate) fn dark_ends(&self, isa: I, share: f32) -> [I::Mask; 2] {
-        let wide = self.dot_of_ends().lt(isa.splat(0.0));
-        let alpha_h = I::V::narrow(self.alpha_h);
-        let most = self.beta.abs().mul_add(self.h, alpha_h.abs());
         let (n_a, n_b) = (self.a.n * self.h, self.b.n * self.h);
-        let least = I::V::select(wide, most, n_a + n_b) * isa.splat(share);
+        let least = I::V::select(self.wide(isa), self.greatest_cosine_h(), n_a + n_b) * isa.splat(share);
         [n_a.lt(least), n_b.lt(least)]
     }
 
@@ -295,11 +311,12 @@ impl<I: Isa> Geometry<I> {
         Point { t, t_prime, exact_t_prime: t_prime.widen(), r: self.r(t_prime), m }
     }
 
-    /// The same with the `t'` and the `r` of what was rounded to `t`, where `t` is no larger than `r`.
+    /// The same with the `t'` and the `r` of what was rounded to `t`, where `t` is smaller than about `r` and so resolves
+    /// it: they are exact then.
     #[inline(always)]
-    pub(crate) fn as_rounded(&self, point: Point<I>) -> Point<I> {
+    pub(crate) fn as_rounded(&self, point: Point<I>, about_r: I::V) -> Point<I> {
         let exact = point.t.widen() - self.t_h;
-        let t_prime = I::V::select(point.t.lt(point.r), I::V::narrow(exact), point.t_prime);
+        let t_prime = I::V::select(point.t.lt(about_r), I::V::narrow(exact), point.t_prime);
         Point { t_prime, exact_t_prime: t_prime.widen(), r: self.r(t_prime), ..point }
     }
 

@@ -11,13 +11,13 @@ pub(crate) struct MediumLanes<I: Isa> {
     pub(crate) mu_s: I::V,
     pub(crate) mu_t: I::V,
     pub(crate) g: I::V,
-    /// Of the medium alone: where all rays have the same it is expanded once for all.
+    // Of the medium alone, and so made once for all rays that have the same.
     pub(crate) phase: Expanded<I>,
     pub(crate) lobe: Lobe<I>,
     pub(crate) valid: I::Mask,
 }
 
-/// The phase function with `A = 1 + g`, `B = 1 - g`: `1 + g^2 + 2 g sin theta = (A^2 X^2 + B^2 h^2)/(X^2 + h^2)`.
+/// The phase function as product densities have it, with `A = 1 + g` and `B = 1 - g`.
 #[derive(Clone, Copy)]
 pub(crate) struct Lobe<I: Isa> {
     pub(crate) a2: I::V,

@@ -13,7 +13,7 @@
 //! | `geometry` | `h`, `t_h`, the lit interval and its ends, without cancellation |
 //! | `expansion` | a factor of the integrand as a polynomial of the angle |
 //! | `strategy` | one file per density: its set-up, its inverse, its pdf |
-//! | `inversion` | Newton's method with the curvature seen to, in a bracket |
+//! | `inversion` | Chebyshev's method in a bracket |
 //! | `integrand` | `mu_s T rho N` for the weight |
 //! | `road` | chunks, threads, and the kernel that strings the stations together |
 //! | `simd` | lane groups, one binding per instruction set |

@@ -141,6 +141,8 @@ struct Tally<I: Isa> {
     valid: I::V,
     sampled: I::V,
     bisected: I::V,
+    /// How many values there were.
+    values: usize,
     settled: Counts,
 }
 
@@ -148,7 +150,7 @@ impl<I: Isa> Tally<I> {
     #[inline(always)]
     fn new(isa: I) -> Self {
         let zero = isa.splat(0.0);
-        Self { valid: zero, sampled: zero, bisected: zero, settled: Counts::default() }
+        Self { valid: zero, sampled: zero, bisected: zero, values: 0, settled: Counts::default() }
     }
 
     /// One more value for each lane: `valid` with what was given, `lit` for the density, and `bisected`.
@@ -159,6 +161,7 @@ impl<I: Isa> Tally<I> {
         self.valid = self.valid + I::V::select(valid, one, zero);
         self.sampled = self.sampled + I::V::select(sampled, one, zero);
         self.bisected = self.bisected + I::V::select(bisected & sampled, one, zero);
+        self.values += I::V::N;
     }
 
     /// Keeps the sums small enough to be exact.
@@ -167,15 +170,14 @@ impl<I: Isa> Tally<I> {
         let [valid, sampled, bisected] =
             [sum_of_lanes(isa, self.valid), sum_of_lanes(isa, self.sampled), sum_of_lanes(isa, self.bisected)];
         let settled = self.settled + Counts { sampled, empty: valid - sampled, invalid: 0, bisected };
-        *self = Self { settled, ..Self::new(isa) };
+        *self = Self { settled, values: self.values, ..Self::new(isa) };
     }
 
-    /// Of so many values.
     #[inline(always)]
-    fn counts(mut self, isa: I, values: usize) -> Counts {
+    fn counts(mut self, isa: I) -> Counts {
         self.settle(isa);
         let Counts { sampled, empty, bisected, .. } = self.settled;
-        Counts { sampled, empty, invalid: values - sampled - empty, bisected }
+        Counts { sampled, empty, invalid: self.values - sampled - empty, bisected }
     }
 }
 
@@ -184,21 +186,16 @@ impl<I: Isa> Tally<I> {
 fn sum_of_lanes<I: Isa>(isa: I, lanes: I::V) -> usize {
     let mut values = [0.0; MOST_LANES];
     isa.store(lanes, &mut I::groups_mut(&mut values)[0]);
-    let mut sum = 0.0;
+    let mut sum = 0;
     for value in values {
-        sum += value;
+        sum += value as usize;
     }
-    sum as usize
+    sum
 }
 
-/// The lane groups of a chunk, each visited once; a visit adds `turns` values for each lane.
+/// The lane groups of a chunk, each visited once.
 #[inline(always)]
-fn for_each_group<I: Isa>(
-    isa: I,
-    inputs: &Inputs<'_>,
-    turns: usize,
-    mut visit: impl FnMut(Group<I>, &mut Tally<I>),
-) -> Counts {
+fn for_each_group<I: Isa>(isa: I, inputs: &Inputs<'_>, mut visit: impl FnMut(Group<I>, &mut Tally<I>)) -> Counts {
     let mut tally = Tally::new(isa);
     let rays = inputs.ray_groups::<I>();
     let (mut emitter, mut medium) = (inputs.emitters.lanes(isa, 0), inputs.media.lanes(isa, 0));
@@ -210,7 +207,7 @@ fn for_each_group<I: Isa>(
         let geometry = Geometry::new(isa, &rays.lanes(isa, index), &emitter);
         visit(Group { geometry, medium, index }, &mut tally);
     }
-    tally.counts(isa, turns * rays.count() * I::V::N)
+    tally.counts(isa)
 }
 
 /// What is given for a lane group, turn by turn.
@@ -230,8 +227,10 @@ fn for_each_turn<I: Isa>(
         visit(turn, turn.load(isa, inputs.given), tally);
     }
 }
-/// After so many f32 still counts every value that a chunk has beside.
+/// Between two settlings a lane has one run of so many turns, and less than another one before it, or at most a chunk of
+/// rays with fewer: all are whole numbers that f32 can count.
 const TURNS_TO_SETTLE: usize = 1 << 16;
+const _: () = assert!(TURNS_TO_SETTLE * (MOST_LANES + 1) < 1 << f32::MANTISSA_DIGITS);
 
 /// Draws a distance for every variate that is given.
 pub(crate) struct Sample;
@@ -258,12 +257,15 @@ impl OfDensity for Sample {
 }
 
 #[inline(always)]
-fn sample<I: Isa, D: Density<I>, const ALL: bool>(isa: I, inputs: &Inputs<'_>, mut out: Samples<'_>) -> Counts {
+fn sample<I: Isa, D: Density<I>, const WITH_WEIGHT_OR_R: bool>(
+    isa: I,
+    inputs: &Inputs<'_>,
+    mut out: Samples<'_>,
+) -> Counts {
     let zero = isa.splat(0.0);
     for_each_group(
         isa,
         inputs,
-        inputs.per_ray,
         #[inline(always)]
         |group, tally| {
             let Group { geometry, medium, index } = &group;
@@ -281,12 +283,12 @@ fn sample<I: Isa, D: Density<I>, const ALL: bool>(isa: I, inputs: &Inputs<'_>, m
                     let drawn = density.invert(isa, geometry, u);
                     turn.store(isa, I::V::select(sampled, drawn.point.t, zero), out.t);
                     turn.store(isa, I::V::select(sampled, drawn.pdf.over_t, zero), out.pdf);
-                    if ALL && let Some(weight) = &mut out.weight {
+                    if WITH_WEIGHT_OR_R && let Some(weight) = &mut out.weight {
                         let value = integrand_r2(isa, geometry, medium, &drawn.point) / drawn.pdf.times_r2;
                         let possible = sampled & zero.lt(drawn.pdf.times_r2);
                         turn.store(isa, I::V::select(possible, value.min(isa.splat(f32::MAX)), zero), weight);
                     }
-                    if ALL && let Some(r) = &mut out.r {
+                    if WITH_WEIGHT_OR_R && let Some(r) = &mut out.r {
                         turn.store(isa, I::V::select(sampled, drawn.point.r, zero), r);
                     }
                     tally.add(isa, valid, lit, drawn.bisected);
@@ -315,7 +317,6 @@ impl OfDensity for Pdf {
         for_each_group(
             isa,
             inputs,
-            inputs.per_ray,
             #[inline(always)]
             |group, tally| {
                 let Group { geometry, medium, index } = &group;
@@ -352,7 +353,6 @@ impl Task for Evaluate {
         for_each_group(
             isa,
             inputs,
-            inputs.per_ray,
             #[inline(always)]
             |group, tally| {
                 let Group { geometry, medium, index } = &group;
@@ -364,11 +364,11 @@ impl Task for Evaluate {
                     #[inline(always)]
                     |turn, t, tally| {
                         let valid = group.valid() & t.eq(t);
-                        let inside = valid & geometry.lit & geometry.t_min.le(t) & t.le(geometry.t_max);
+                        let inside = valid & geometry.faced & geometry.t_min.le(t) & t.le(geometry.t_max);
                         let point = geometry.point_at_distance(isa, t);
                         let f = integrand_r2(isa, geometry, medium, &point) / (point.r * point.r);
                         turn.store(isa, I::V::select(inside, f.min(isa.splat(f32::MAX)), zero), out);
-                        tally.add(isa, valid, geometry.lit, none(isa));
+                        tally.add(isa, valid, geometry.faced, none(isa));
                     },
                 );
             },
@@ -404,7 +404,6 @@ fn radiance<I: Isa, const K: usize>(isa: I, inputs: &Inputs<'_>, out: &mut [f32]
     for_each_group(
         isa,
         inputs,
-        1,
         #[inline(always)]
         |group, tally| {
             let Group { geometry, medium, index } = &group;

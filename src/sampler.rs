@@ -55,10 +55,10 @@ impl Sampler {
     /// makes its ray invalid. Equal inputs give equal bits, wherever they stand in a batch and however many threads
     /// there are.
     ///
-    /// Beyond the rounding of `t` to f32 the CDF at `t` is within 2^-20 of `u`. `r`, to 4 ulp, and the weight, to 2e-5 (of
-    /// a product density at its very ends 6e-5), are those of a distance that rounds to `t`, or of a variate so near to
-    /// `u`: next to the emitter `t` resolves neither. `airlight accuracy` measures it. At u = 0 and 1 a density that
-    /// vanishes there is sampled next to the end.
+    /// Beyond the rounding of `t` to f32 the CDF at `t` is within 2^-20 of `u`. `r`, to 4 ulp, and the weight, to 2e-5 or,
+    /// where the density is less than a thousandth of its mean, to as much as that share is smaller, are those of a
+    /// distance that rounds to `t`, or of a variate so near to `u`: next to the emitter `t` resolves neither. `airlight
+    /// accuracy` measures it. At u = 0 and 1 a density that vanishes there is sampled next to the end.
     ///
     /// # Errors
     /// [`Error::Length`] if a column has another length than `rays.origin[0]`, or `u` one that is no multiple of it, or

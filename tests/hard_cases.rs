@@ -1,7 +1,9 @@
 //! Inputs that break renderers do not break this one: every bound holds on every family, and what is not a number or
 //! beyond all range comes out finite, in range and counted.
 
-use airlight::{Sampler, Strategy};
+use airlight::glam::Vec3;
+use airlight::oracle::Scene;
+use airlight::{Emitter, Medium, Ray, Sampler, Strategy};
 use airlight_tools::backends::distinct;
 use airlight_tools::bounds::bounds;
 use airlight_tools::errors::Errors;
@@ -80,4 +82,54 @@ fn rays_that_are_hardly_any() {
 #[test]
 fn arbitrary_bits() {
     holds(Family::RandomBits);
+}
+
+/// `N` is about `grade` all along the ray, 0 at t = 2: its squares leave f32, then its products, then `1/beta`.
+#[test]
+fn emitters_seen_edge_on() {
+    let medium = Medium::new(0.1, 0.2, 0.6).unwrap();
+    let lamp = Emitter::point_normal(Vec3::new(5.0, 1.0, 0.0), Vec3::Z).unwrap();
+    for exponent in [9, 15, 19, 20, 21, 22, 24, 25, 26, 28, 30, 31, 34, 37, 38, 39, 41, 44] {
+        let grade = 10f32.powi(-exponent);
+        for t_max in [4.0, 10.0, f32::INFINITY] {
+            let (origin, direction) = (Vec3::new(0.0, 0.0, -2.0 * grade), Vec3::new(1.0, 0.0, grade));
+            let ray = Ray::new(origin, direction, 0.0, t_max).unwrap();
+            let scene = Scene::new(&ray, &lamp, &medium);
+            for backend in distinct() {
+                for &strategy in Strategy::ALL {
+                    for u in [0.1, 0.25, 0.5, 0.75, 0.9] {
+                        let sample = Sampler::new(strategy).with_backend(backend).sample_one(&ray, &lamp, &medium, u);
+                        let name = format!("{strategy}, {}, grade {grade:e}, t_max {t_max}, u {u}", backend.name());
+                        let Some(sample) = sample else {
+                            assert!(exponent > 24, "{name}: no sample");
+                            continue;
+                        };
+                        let cdf = |t: f32| scene.cdf(strategy, t.into());
+                        let (low, high) = (cdf(sample.t.next_down()), cdf(sample.t.next_up()));
+                        let near = 1.0 / f64::from(1 << 20);
+                        let inside = (low - near..=high + near).contains(&f64::from(u));
+                        assert!(inside, "{name}: t {} with the CDF {low} to {high}", sample.t);
+                        assert!(sample.pdf > 0.0 && sample.weight.is_finite(), "{name}: {sample:?}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// It subtends less than 1e-30 rad, which only a density that does not ask for the angle can do with.
+#[test]
+fn a_ray_too_short_for_angles() {
+    let medium = Medium::new(0.0, 1e-4, 0.6).unwrap();
+    let lamp = Emitter::point(Vec3::new(1e4, 0.0, 0.0)).unwrap();
+    let ray = Ray::new(Vec3::ZERO, Vec3::X, 0.0, 5e-18).unwrap();
+    for &strategy in Strategy::ALL {
+        let sampler = Sampler::new(strategy);
+        let sample = sampler.sample_one(&ray, &lamp, &medium, 0.5);
+        assert_eq!(sample.is_some(), strategy == Strategy::Transmittance, "{strategy}");
+        if let Some(sample) = sample {
+            let f = sampler.evaluate_one(&ray, &lamp, &medium, sample.t);
+            assert!(f > 0.0 && (sample.weight * sample.pdf / f - 1.0).abs() < 1e-5, "{sample:?}, f {f:e}");
+        }
+    }
 }

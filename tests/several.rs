@@ -56,7 +56,7 @@ fn they_are_those_of_one_each() {
     }
 }
 
-/// More than the lanes of a kernel tally before they settle.
+/// Nothing is lost where a kernel's tally is settled in between.
 #[test]
 fn any_number_is_counted() {
     let per_ray = 3 * (1 << 16) + 5;

@@ -53,7 +53,6 @@ impl OfDensity for UpTo {
         for_each_group(
             isa,
             inputs,
-            inputs.per_ray,
             #[inline(always)]
             |group, tally| {
                 // Values, not references, go into the black box: the stages beyond keep theirs in registers.

@@ -149,7 +149,7 @@ mod tests {
     /// A small whole number, another one in every lane.
     fn number(k: usize) -> Pair<f32x8> {
         let half =
-            |first: usize| f32x8::new(std::array::from_fn(|lane| ((7 * k + 3 * (first + lane)) % 11) as f32 - 5.0));
+            |first: usize| f32x8::new(std::array::from_fn(|lane| ((7 * k + 3 * (first + lane)) % 17) as f32 - 8.0));
         Pair(half(0), half(8))
     }
 

@@ -28,10 +28,16 @@ pub(crate) fn mass_of_cosine<I: Isa>(n: [I::V; 2], s: [I::V; 2], tan_half: I::V,
 /// `tan(delta/2)` of the angle from an end within which N has the integral `mass`.
 #[inline(always)]
 pub(crate) fn tan_half_at_mass<I: Isa>(isa: I, n_end: I::V, s_end: I::V, mass: I::V) -> I::V {
-    let zero = isa.splat(0.0);
-    let n = n_end.mul_add(n_end, -(mass * (s_end + s_end + mass))).max(zero).sqrt();
-    mass / (n + n_end).max(isa.splat(1e-37))
+    let c = |x| isa.splat(x);
+    // Of a ray along the emitter's plane they are all so small that their squares leave f32.
+    let unit = I::V::select((n_end + s_end.abs()).lt(c(SMALL)), c(LARGE), c(1.0));
+    let (n_end, s_end, mass) = (n_end * unit, s_end * unit, mass * unit);
+    let n = n_end.mul_add(n_end, -(mass * (s_end + s_end + mass))).max(c(0.0)).sqrt();
+    mass / (n + n_end).max(c(1e-37))
 }
+/// Powers of two, so that no bit is rounded.
+const SMALL: f32 = 1.0 / (1 << 20) as f32;
+const LARGE: f32 = (1u64 << 60) as f32;
 
 /// The least share of the mass between a sample and an end of the interval.
 pub(crate) const NEAREST: f32 = 1e-12;

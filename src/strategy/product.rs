@@ -304,7 +304,7 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
         let by_x = half * (x - g.h * h_x);
         let near_end = scale_a.min(scale_b).lt(r);
         let t_prime = I::V::select(near_end, by_end, by_x).max(g.a.t_prime).min(g.b.t_prime);
-        let point = g.as_rounded(g.point_between(isa, from_a, to_b, t_prime));
+        let point = g.as_rounded(g.point_between(isa, from_a, to_b, t_prime), r);
         let s = (self.e + rest) * self.w_0;
         let pdf = self.pdf_over_v(isa, p_v, s, x, r);
         Drawn { point, pdf, bisected: none(isa) }

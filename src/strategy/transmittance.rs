@@ -50,7 +50,7 @@ impl<I: Isa> Density<I> for Transmittance<I> {
         Pdf::over_distance(self.at(isa, point.t - geometry.t_min), point.r)
     }
 
-    /// However little it is: this density knows no emitter.
+    /// Asks the emitter only whether it faces the ray, not how much of it.
     #[inline(always)]
     fn lit(_: I, geometry: &Geometry<I>) -> I::Mask {
         geometry.faced

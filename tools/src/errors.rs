@@ -10,7 +10,8 @@ const BATCH: usize = 1 << 14;
 /// Every how many rays the weight and the floors are looked at, which takes the oracle's inverse many times.
 const WEIGHED: usize = 16;
 /// What counts as vanishing: a density below this share of its mean over the interval, `1/(t_b - t_a)`, and an N below
-/// this value. There errors are in ulp of that share, or of the integrand with this N.
+/// this value. There errors are in ulp of that share, or of the integrand with this N; those of a weight count by the
+/// density over that share.
 const VANISHING: f64 = 1e-3;
 /// The change of `u` that the errors of `r` and of the weight allow for: what the CDF is promised to.
 const VARIATE: f64 = 1.0 / (1 << 20) as f64;
@@ -333,11 +334,16 @@ fn offset_error(scene: &Scene, strategy: Strategy, ends: [f64; 2], u: f64) -> Op
 }
 
 fn pdf_error(scene: &Scene, strategy: Strategy, t: f64, pdf: f64) -> Option<f64> {
-    let (t_a, t_b) = if strategy == Strategy::Transmittance { scene.interval() } else { scene.lit()? };
+    let (t_a, t_b) = support(scene, strategy)?;
     let exact = scene.pdf(strategy, t);
     let size = exact.max(VANISHING / (t_b - t_a));
     // Outside for rounding alone.
     (t_a..=t_b).contains(&t).then(|| (pdf - exact).abs() / ulp(size))
+}
+
+/// The distances that are sampled.
+fn support(scene: &Scene, strategy: Strategy) -> Option<(f64, f64)> {
+    if strategy == Strategy::Transmittance { Some(scene.interval()) } else { scene.lit() }
 }
 
 /// As for the weight: where `t` cannot tell, `r` is that of a variate near `u`.
@@ -376,7 +382,10 @@ fn weight_error(scene: &Scene, strategy: Strategy, rounding: &Rounding, u: f64, 
         beyond([exact.min(low).min(high), exact.max(low).max(high)], weight)
     };
     let of_u = outside([u - VARIATE, u + VARIATE].map(inverse));
-    comparable.then(|| outside(rounding.ends).min(of_u) / exact.max(weight))
+    // A quotient by the pdf, so that what vanishing does to the one it does to the other.
+    let (t_a, t_b) = support(scene, strategy)?;
+    let share = (scene.pdf(strategy, t) * (t_b - t_a) / VANISHING).min(1.0);
+    comparable.then(|| share * outside(rounding.ends).min(of_u) / exact.max(weight))
 }
 
 fn depth(scene: &Scene, t: f64) -> f64 {
