@@ -1,6 +1,6 @@
 //! What a kernel cannot be faster than: the operations it needs, and how many of them a core does.
 
-use crate::batch::{Emitters, Inputs, Media, Rays, Samples};
+use crate::batch::{Emitters, Inputs, Media, OfSamples, Outputs, Rays, Samples};
 use crate::road::{self, Task};
 use crate::simd::counting::Counting;
 use crate::simd::{Backend, Isa, Kernel, Lanes, Number};
@@ -32,7 +32,8 @@ impl Add for Operations {
 
 impl Sampler {
     /// What [`sample`](Self::sample) needs for the whole batch, with every lane on its own: where one has to wait for
-    /// others in its group, the group does more. Comparisons, selections and integers are not counted.
+    /// others in its group, the group does more. Comparisons, selections and integers are not counted, nor is what no
+    /// result depends on.
     ///
     /// # Errors
     /// As [`sample`](Self::sample).
@@ -48,13 +49,20 @@ impl Sampler {
         let inputs = Inputs::new(rays, emitters, media)?.with(u, "u")?;
         inputs.check_given("samples.t", samples.t)?;
         inputs.check_given("samples.pdf", samples.pdf)?;
-        if inputs.len() == 0 {
-            return Ok(Operations::default());
+        let mut needed = Operations::default();
+        let mut rest = Samples { t: samples.t, pdf: samples.pdf, weight: None, r: None };
+        for start in (0..inputs.len()).step_by(AT_ONCE) {
+            let few = inputs.slice(start..inputs.len().min(start + AT_ONCE));
+            let (out, beyond) = OfSamples::split_at(rest, few.len() * few.per_ray);
+            rest = beyond;
+            needed = needed + Counting::count(|isa| road::Sample::run(isa, self.strategy(), &few, out));
         }
-        let out = Samples { t: samples.t, pdf: samples.pdf, weight: None, r: None };
-        Ok(Counting::count(|isa| road::Sample::run(isa, self.strategy(), &inputs, out)))
+        Ok(needed)
     }
 }
+
+/// Rays whose arithmetic is written down before it is counted.
+const AT_ONCE: usize = 256;
 
 /// A unit of the core that a kernel may wait for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,18 +1,68 @@
-//! One lane that counts its arithmetic.
+//! One lane that writes down its arithmetic, and counts what was of use.
+//!
+//! A kernel computes more than it is asked for, and the compiler leaves that out: only what a result or a branch depends
+//! on counts.
 
 use super::{Double, Isa, Lanes, Number};
 use crate::limits::Operations;
-use core::cell::Cell;
-use core::ops::{Add, Div, Mul, Neg, Sub};
+use core::cell::RefCell;
+use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 thread_local! {
-    static COUNT: Cell<Operations> = const { Cell::new(NONE) };
+    static TAPE: RefCell<Tape> = const { RefCell::new(Tape { steps: Vec::new(), wanted: Vec::new() }) };
 }
 
 const NONE: Operations = Operations { multiply_adds: 0, additions: 0, divisions: 0 };
 
-fn count(operations: Operations) {
-    COUNT.set(COUNT.get() + operations);
+/// Where on the tape a value was made: 1 for the first step, 0 for a constant.
+type Place = usize;
+
+/// All that was done.
+struct Tape {
+    steps: Vec<Step>,
+    /// What was written to memory or decided where to go.
+    wanted: Vec<Place>,
+}
+
+/// One operation, and the places of its operands.
+struct Step {
+    operations: Operations,
+    operands: [Place; 3],
+}
+
+/// Writes a step down; what is made of constants is one.
+fn step(operations: Operations, operands: [Place; 3]) -> Place {
+    if operands == [0; 3] {
+        return 0;
+    }
+    TAPE.with_borrow_mut(|tape| {
+        tape.steps.push(Step { operations, operands });
+        tape.steps.len()
+    })
+}
+
+fn want(place: Place) {
+    TAPE.with_borrow_mut(|tape| tape.wanted.push(place));
+}
+
+impl Tape {
+    /// The operations that something wanted depends on.
+    fn needed(&mut self) -> Operations {
+        let mut sum = NONE;
+        while let Some(place) = self.wanted.pop() {
+            let Some(index) = place.checked_sub(1) else { continue };
+            // A step that was seen has no operands and no operations left.
+            let Step { operations, operands } = std::mem::replace(&mut self.steps[index], Step::SEEN);
+            sum = sum + operations;
+            self.wanted.extend(operands);
+        }
+        self.steps.clear();
+        sum
+    }
+}
+
+impl Step {
+    const SEEN: Self = Self { operations: NONE, operands: [0; 3] };
 }
 
 /// Needs no CPU check, and is slow.
@@ -22,15 +72,18 @@ pub(crate) struct Counting(());
 impl Counting {
     /// What `work` needs, all of it on this thread.
     pub(crate) fn count<R>(work: impl FnOnce(Self) -> R) -> Operations {
-        COUNT.set(NONE);
         work(Self(()));
-        COUNT.get()
+        TAPE.with_borrow_mut(Tape::needed)
     }
 }
 
-/// A number of one lane.
+/// A number of one lane, and where it was made.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Counted<T>(T);
+pub(crate) struct Counted<T>(T, Place);
+
+/// The truth about one lane.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Truth(bool, Place);
 
 /// How many places it takes in a register.
 trait Size {
@@ -50,39 +103,57 @@ macro_rules! operators {
         impl<T: Size + $Op<Output = T>> $Op for Counted<T> {
             type Output = Self;
             fn $op(self, o: Self) -> Self {
-                count(Operations { $kind: T::SIZE, ..NONE });
-                Self(self.0.$op(o.0))
+                Self(self.0.$op(o.0), step(Operations { $kind: T::SIZE, ..NONE }, [self.1, o.1, 0]))
             }
         }
     )*};
 }
 operators!(Add add additions, Sub sub additions, Mul mul additions, Div div divisions);
 
+macro_rules! truths {
+    ($($Op:ident $op:ident),*) => {$(
+        impl $Op for Truth {
+            type Output = Self;
+            fn $op(self, o: Self) -> Self {
+                Self(self.0.$op(o.0), step(NONE, [self.1, o.1, 0]))
+            }
+        }
+    )*};
+}
+truths!(BitAnd bitand, BitOr bitor);
+
+impl Not for Truth {
+    type Output = Self;
+    fn not(self) -> Self {
+        Self(!self.0, self.1)
+    }
+}
+
 impl<T: Neg<Output = T>> Neg for Counted<T> {
     type Output = Self;
     fn neg(self) -> Self {
-        Self(-self.0)
+        Self(-self.0, self.1)
     }
 }
 
 impl<T: Size + Number> Number for Counted<T> {
     fn mul_add(self, m: Self, a: Self) -> Self {
-        count(Operations { multiply_adds: T::SIZE, ..NONE });
-        Self(self.0.mul_add(m.0, a.0))
+        let operations = Operations { multiply_adds: T::SIZE, ..NONE };
+        Self(self.0.mul_add(m.0, a.0), step(operations, [self.1, m.1, a.1]))
     }
 }
 
 impl Isa for Counting {
     type V = Counted<f32>;
-    type Mask = bool;
+    type Mask = Truth;
     type Double = Counted<f64>;
     type Group = f32;
 
     fn splat(self, x: f32) -> Counted<f32> {
-        Counted(x)
+        Counted(x, 0)
     }
     fn splat_double(self, x: f64) -> Counted<f64> {
-        Counted(x)
+        Counted(x, 0)
     }
     fn groups(column: &[f32]) -> &[f32] {
         column
@@ -91,66 +162,95 @@ impl Isa for Counting {
         column
     }
     fn load(self, group: &f32) -> Counted<f32> {
-        Counted(*group)
+        // Of nothing that is known: a step of its own.
+        let place = TAPE.with_borrow_mut(|tape| {
+            tape.steps.push(Step::SEEN);
+            tape.steps.len()
+        });
+        Counted(*group, place)
     }
     fn store(self, lanes: Counted<f32>, group: &mut f32) {
+        want(lanes.1);
         *group = lanes.0;
     }
 }
 
 impl Lanes for Counted<f32> {
-    type Mask = bool;
+    type Mask = Truth;
     type Double = Counted<f64>;
     const N: usize = 1;
 
     fn sqrt(self) -> Self {
-        count(Operations { divisions: 1, ..NONE });
-        Self(Lanes::sqrt(self.0))
+        Self(Lanes::sqrt(self.0), step(Operations { divisions: 1, ..NONE }, [self.1, 0, 0]))
     }
     fn abs(self) -> Self {
-        Self(Lanes::abs(self.0))
+        Self(Lanes::abs(self.0), self.1)
     }
     fn min(self, o: Self) -> Self {
-        Self(Lanes::min(self.0, o.0))
+        Self(Lanes::min(self.0, o.0), step(NONE, [self.1, o.1, 0]))
     }
     fn max(self, o: Self) -> Self {
-        Self(Lanes::max(self.0, o.0))
+        Self(Lanes::max(self.0, o.0), step(NONE, [self.1, o.1, 0]))
     }
-    fn lt(self, o: Self) -> bool {
-        self.0 < o.0
+    fn lt(self, o: Self) -> Truth {
+        Truth(self.0 < o.0, step(NONE, [self.1, o.1, 0]))
     }
-    fn le(self, o: Self) -> bool {
-        self.0 <= o.0
+    fn le(self, o: Self) -> Truth {
+        Truth(self.0 <= o.0, step(NONE, [self.1, o.1, 0]))
     }
-    fn eq(self, o: Self) -> bool {
-        self.0 == o.0
+    fn eq(self, o: Self) -> Truth {
+        Truth(self.0 == o.0, step(NONE, [self.1, o.1, 0]))
     }
-    fn select(m: bool, yes: Self, no: Self) -> Self {
-        if m { yes } else { no }
+    // Both are computed, whichever is taken.
+    fn select(m: Truth, yes: Self, no: Self) -> Self {
+        Self(if m.0 { yes.0 } else { no.0 }, step(NONE, [m.1, yes.1, no.1]))
     }
-    fn bits(m: bool) -> u32 {
-        m.into()
+    fn bits(m: Truth) -> u32 {
+        want(m.1);
+        m.0.into()
     }
     fn pow2(self) -> Self {
-        Self(self.0.pow2())
+        Self(self.0.pow2(), self.1)
     }
     fn split(self) -> (Self, Self) {
         let (m, e) = self.0.split();
-        (Self(m), Self(e))
+        (Self(m, self.1), Self(e, self.1))
     }
     fn widen(self) -> Counted<f64> {
-        Counted(self.0.widen())
+        Counted(self.0.widen(), self.1)
     }
     fn narrow(d: Counted<f64>) -> Self {
-        Self(f32::narrow(d.0))
+        Self(f32::narrow(d.0), d.1)
     }
 }
 
 impl Double for Counted<f64> {
     fn min(self, o: Self) -> Self {
-        Self(Double::min(self.0, o.0))
+        Self(Double::min(self.0, o.0), step(NONE, [self.1, o.1, 0]))
     }
     fn max(self, o: Self) -> Self {
-        Self(Double::max(self.0, o.0))
+        Self(Double::max(self.0, o.0), step(NONE, [self.1, o.1, 0]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_nothing_depends_on_does_not_count() {
+        let needed = Counting::count(|isa| {
+            let (x, y) = (isa.load(&2.0), isa.load(&3.0));
+            let idle = x / y;
+            let (sum, product) = (x + y, x.widen() * y.widen());
+            let constant = isa.splat(2.0) / isa.splat(3.0);
+            // A selection needs both, and the comparison what it compares.
+            let taken = Counted::select(sum.lt(y.sqrt()), idle * constant, Counted::narrow(product));
+            let _ = taken / y;
+            isa.store(x.mul_add(y, constant), &mut 0.0);
+            Counted::bits(taken.eq(x));
+        });
+        assert_eq!(needed, Operations { multiply_adds: 1, additions: 4, divisions: 2 });
+        assert_eq!(Counting::count(|_| ()), NONE);
     }
 }
