@@ -31,6 +31,8 @@ struct Step {
 }
 
 /// Writes a step down; what is made of constants is one.
+// A call: kernels are inlined whole, and this into every place of theirs is more than compilers can take.
+#[inline(never)]
 fn step(operations: Operations, operands: [Place; 3]) -> Place {
     if operands == [0; 3] {
         return 0;
@@ -41,6 +43,16 @@ fn step(operations: Operations, operands: [Place; 3]) -> Place {
     })
 }
 
+/// A step of its own, for what comes from memory.
+#[inline(never)]
+fn given() -> Place {
+    TAPE.with_borrow_mut(|tape| {
+        tape.steps.push(Step::SEEN);
+        tape.steps.len()
+    })
+}
+
+#[inline(never)]
 fn want(place: Place) {
     TAPE.with_borrow_mut(|tape| tape.wanted.push(place));
 }
@@ -162,12 +174,7 @@ impl Isa for Counting {
         column
     }
     fn load(self, group: &f32) -> Counted<f32> {
-        // Of nothing that is known: a step of its own.
-        let place = TAPE.with_borrow_mut(|tape| {
-            tape.steps.push(Step::SEEN);
-            tape.steps.len()
-        });
-        Counted(*group, place)
+        Counted(*group, given())
     }
     fn store(self, lanes: Counted<f32>, group: &mut f32) {
         want(lanes.1);
