@@ -59,7 +59,7 @@ pub enum Media<'a> {
 /// it, the samples of one ray next to each other.
 #[derive(Debug)]
 pub struct Samples<'a> {
-    /// Distances along the rays, in `[t_min, t_max]` \[m\].
+    /// Distances along the rays, in `[t_min, t_max]`, 0 where there is no sample \[m\].
     pub t: &'a mut [f32],
     /// Probability densities over distance \[1/m\]; one below f32's range is 0.
     pub pdf: &'a mut [f32],

@@ -55,9 +55,9 @@ impl Sampler {
     /// makes its ray invalid. Equal inputs give equal bits, wherever they stand in a batch and however many threads
     /// there are.
     ///
-    /// Beyond the rounding of `t` to f32 the CDF at `t` is within 2^-20 of `u`. `r`, to 4 ulp, and the weight, to 2e-5 or,
-    /// where the density is less than a thousandth of its mean, to as much as that share is smaller, are those of a
-    /// distance that rounds to `t`, or of a variate so near to `u`: next to the emitter `t` resolves neither. `airlight
+    /// Beyond the rounding of `t` to f32 the CDF at `t` is within 2^-20 of `u`. `r`, to 4 ulp, and the weight, to 2e-5, are
+    /// those of a distance that rounds to `t`, or of a variate so near to `u`: next to the emitter `t` resolves neither.
+    /// (Where the density is below a thousandth of its mean, the error of a weight grows as that falls.) `airlight
     /// accuracy` measures it. At u = 0 and 1 a density that vanishes there is sampled next to the end.
     ///
     /// # Errors
@@ -117,9 +117,9 @@ impl Sampler {
     /// It is the density of what [`sample`](Self::sample) returns, taken at `t` as rounded: where `t` resolves `r` the
     /// two agree within 1e-5, next to the emitter that of `sample` is the exact one. Error at a given `t`: below 8 ulp for
     /// 99 % of rays, 64 for 99.99 %; of product densities at the very ends of the interval, where they may vanish, 14 and
-    /// 128, of product-3 next to the emitter 9 and 64, and of product densities on arbitrary bits 10 for 99 %. A density of
-    /// less than a thousandth of `1/(t_b - t_a)`, its mean over the sampled interval, has errors in ulp of that; one below
-    /// f32's range is 0.
+    /// 128, of product-3 next to the emitter 9 and 64, and of product densities on arbitrary bits 10 for 99 % and no promise
+    /// for 99.99 %. A density of less than a thousandth of `1/(t_b - t_a)`, its mean over the sampled interval, has errors
+    /// in ulp of that; one below f32's range is 0.
     ///
     /// [`Counts::sampled`] counts the rays that have a sample, whether or not it could be at `t`. A NaN in `t` makes
     /// its ray invalid.
