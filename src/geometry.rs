@@ -152,7 +152,7 @@ impl<I: Isa> Geometry<I> {
         let dark_a = has_normal & m_a.le(c(0.0));
         let dark_b = has_normal & m_b.le(c(0.0));
         let beta = I::V::narrow(beta_exact);
-        // A ray so flat against the emitter's plane is not cut there: it is dark or it is not.
+        // A ray so flat against the emitter's plane is not cut there: with one end it is dark as a whole.
         let flat = beta.abs().lt(c(FLATTEST));
         let both = (dark_a & dark_b) | (flat & (dark_a | dark_b));
         let (clip_a, clip_b) = (dark_a & !dark_b, dark_b & !dark_a);

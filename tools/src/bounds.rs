@@ -42,7 +42,8 @@ pub fn bounds(strategy: Strategy, family: Family) -> Vec<Bound> {
         // has 0.99 for such rays too. So it holds wherever half an ulp of t changes the CDF by at most half as much.
         Bound { figure: "cdf_resolved_max", read: |e| quantile(&e.cdf_resolved, 1.0), limit: 128.0 * ULP },
         // Of the r of what rounds to t, or of a variate within 2^-20 of u: t and r come from one angle by two formulas,
-        // and where t is a small difference it has more digits than t'.
+        // and where t is a small difference it has more digits than t'. Seen 4.00: what is beyond 4 of the rounding of t alone
+        // is compared with the variates too.
         Bound { figure: "r_max", read: |e| quantile(&e.r, 1.0), limit: 4.0 },
         // Seen 14.
         Bound { figure: "integrand_max", read: |e| quantile(&e.integrand, 1.0), limit: 48.0 },
