@@ -90,7 +90,7 @@ fn emitters_seen_edge_on() {
     let medium = Medium::new(0.1, 0.2, 0.6).unwrap();
     let lamp = Emitter::point_normal(Vec3::new(5.0, 1.0, 0.0), Vec3::Z).unwrap();
     for exponent in [9, 15, 19, 20, 21, 22, 24, 25, 26, 28, 30, 31, 34, 37, 38, 39, 41, 44] {
-        let grade = 10f32.powi(-exponent);
+        let grade = 10f64.powi(-exponent) as f32;
         for t_max in [4.0, 10.0, f32::INFINITY] {
             let (origin, direction) = (Vec3::new(0.0, 0.0, -2.0 * grade), Vec3::new(1.0, 0.0, grade));
             let ray = Ray::new(origin, direction, 0.0, t_max).unwrap();
