@@ -45,6 +45,10 @@ const TOLERANCE: f32 = 2.001 * UNIT_TOLERANCE;
 /// Sine of the least angle between a ray and the emitter's plane of which it is known where they meet.
 const FLATTEST: f32 = 1e-30;
 
+/// How much more than half of an angle is measured from the end nearer to the foot of the perpendicular: from the other
+/// one, a short way to the near end is what a long one leaves.
+pub(crate) const BIAS: f32 = 0.05;
+
 /// One end of the lit interval.
 #[derive(Clone, Copy)]
 pub(crate) struct End<I: Isa> {
@@ -163,7 +167,7 @@ impl<I: Isa> Geometry<I> {
         let once = -(alpha_h * reciprocal_near(isa, beta_exact, near));
         let t_prime_n = once - beta_exact.mul_add(once, alpha_h) * near;
         let tn = I::V::narrow(t_prime_n).max(ta).min(tb);
-        let lit_length = (I::V::select(clip_a, m_b, m_a) * inv_beta.abs()).min(length);
+        let lit_length = (m_a.max(m_b) * inv_beta.abs()).min(length);
         let length = I::V::select(clip_a | clip_b, lit_length, length);
         let exact_t_n = t_h + t_prime_n;
         let t_n = I::V::narrow(exact_t_n).max(ray.t_min).min(t_max);
@@ -263,6 +267,13 @@ impl<I: Isa> Geometry<I> {
         angle_of(isa, self.h * self.length, self.dot_of_ends())
     }
 
+    /// `BIAS` where `a` is the end nearer to the foot of the perpendicular, else less that.
+    #[inline(always)]
+    pub(crate) fn bias_to_a(&self, isa: I) -> I::V {
+        let near_a = self.a.t_prime.abs().lt(self.b.t_prime.abs());
+        I::V::select(near_a, isa.splat(BIAS), isa.splat(-BIAS))
+    }
+
     /// `r_a r_b cos Theta` \[m^2\].
     #[inline(always)]
     pub(crate) fn dot_of_ends(&self) -> I::V {
@@ -277,8 +288,8 @@ impl<I: Isa> Geometry<I> {
 
     /// The point at the angle `delta` from an end (`a` where `from_a`), given `tau = tan(delta/2) <= 1`.
     ///
-    /// With `t'_e` counted towards the interval, its distance from the end is
-    /// `2 tau r_e^2 / (h (1 - tau^2) - 2 tau t'_e)` and its `t'` is `h (t'_e (1 - tau^2) + 2 tau h)` over the same.
+    /// With `t'_e` counted towards the interval, its distance from the end is `2 tau r_e^2 / D` and its `t'` is
+    /// `h (t'_e (1 - tau^2) + 2 tau h) / D`, where `D = h (1 - tau^2) - 2 tau t'_e`.
     #[inline(always)]
     pub(crate) fn point_at_angle(&self, isa: I, from_a: I::Mask, tau: I::V) -> Point<I> {
         let c = |x| isa.splat(x);
@@ -286,12 +297,11 @@ impl<I: Isa> Geometry<I> {
         let te = toward(self.a.t_prime, self.b.t_prime);
         let re_squared = te.mul_add(te, self.h_squared);
         let two_tau = tau + tau;
-        let one_minus = (-tau).mul_add(tau, c(1.0));
-        let scale = c(1.0) / self.h.mul_add(one_minus, -(two_tau * te));
+        let scale = c(1.0) / (-tau).mul_add(self.h.mul_add(tau, te + te), self.h);
         let offset = (two_tau * (re_squared * scale)).min(self.length);
         // Not far from the end it is known better by that.
         let by_end = te + offset;
-        let by_angle = (self.h * scale) * te.mul_add(one_minus, two_tau * self.h);
+        let by_angle = (self.h * scale) * tau.mul_add((-te).mul_add(tau, self.h + self.h), te);
         let t_prime = I::V::select((offset + offset).lt(te.abs()), by_end, by_angle);
         let t_prime = toward(t_prime, t_prime).max(self.a.t_prime).min(self.b.t_prime);
 

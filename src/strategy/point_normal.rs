@@ -15,6 +15,8 @@ pub(crate) struct PointNormal<I: Isa> {
     s_b: I::V,
     /// The integral of N over `theta`; without a normal the angle itself.
     mass: I::V,
+    /// Up to which variate it is measured from `a`.
+    turn: I::V,
 }
 
 /// The integral of N between two angles, given N and S at both and `tan_half` of their difference.
@@ -49,20 +51,25 @@ impl<I: Isa> Density<I> for PointNormal<I> {
         let [s_a, s_b] = [g.antiderivative(&g.a), g.antiderivative(&g.b)];
         let dot = g.dot_of_ends();
         let tan_half = (g.h * g.length) / g.a.r.mul_add(g.b.r, dot);
-        let mut mass = mass_of_cosine::<I>([g.a.n, g.b.n], [s_a, s_b], tan_half, dot.lt(isa.splat(0.0)));
+        let wide = dot.lt(isa.splat(0.0));
+        let mut mass = mass_of_cosine::<I>([g.a.n, g.b.n], [s_a, s_b], tan_half, wide);
+        // The mass of half of the angle, were N straight between the ends: from a dark end half of the mass is most of it.
+        let sum = g.a.n + g.b.n;
+        let half_way = (g.a.n + g.a.n + sum) / (isa.splat(4.0) * sum);
+        let turn = I::V::select(wide, isa.splat(0.5), half_way + g.bias_to_a(isa));
         if I::V::bits(!g.has_normal) != 0 {
             mass = I::V::select(g.has_normal, mass, g.subtended(isa));
         }
-        Self { s_a, s_b: -s_b, mass }
+        Self { s_a, s_b: -s_b, mass, turn }
     }
 
     #[inline(always)]
     fn invert(&self, isa: I, geometry: &Geometry<I>, u: I::V) -> Drawn<I> {
         let g = geometry;
         let rest = isa.splat(1.0) - u;
-        let from_a = u.le(rest);
+        let from_a = u.le(self.turn);
         // Off the very end, where N may be 0.
-        let mass = self.mass * u.min(rest).max(isa.splat(NEAREST));
+        let mass = self.mass * I::V::select(from_a, u, rest).max(isa.splat(NEAREST));
         let n_end = I::V::select(from_a, g.a.n, g.b.n);
         let s_end = I::V::select(from_a, self.s_a, self.s_b);
         let mut tan_half = tan_half_at_mass(isa, n_end, s_end, mass);
