@@ -266,7 +266,7 @@ impl Row {
             weigh.then(|| cdf_floor(&scene, strategy, u)),
             Some(beyond(cdfs, u)),
             offset_error(&scene, strategy, rounding.ends, u),
-            (weigh && !near).then(|| offset_floor(&scene, strategy, u)).flatten(),
+            (weigh && !near).then(|| offset_floor(&scene, strategy, rounding.moved, u)).flatten(),
             pdf_error(&scene, strategy, t.into(), pdf_at_t.into()),
             (weigh && !near).then(|| pdf_floor(&scene, strategy, t.into())).flatten(),
             Some(r_error(&scene, strategy, &rounding, u, r.into())),
@@ -282,6 +282,8 @@ impl Row {
 struct Rounding {
     /// Its ends, and a little more for the rounding of the geometry to f64.
     ends: [f64; 2],
+    /// How much more.
+    moved: f64,
     /// The largest distance that the point has from something.
     scale: f64,
 }
@@ -293,7 +295,7 @@ impl Rounding {
         let clipped = scene.lit().is_some_and(|lit| lit != scene.interval());
         let moved = GEOMETRY * scale / if clipped { scene.beta().abs() } else { 1.0 };
         let [low, high] = [t.next_down(), t.next_up()].map(|next| 0.5 * (f64::from(t) + f64::from(next)));
-        Self { ends: [low - moved, high + moved], scale }
+        Self { ends: [low - moved, high + moved], moved, scale }
     }
 }
 
@@ -311,9 +313,9 @@ fn rounded(scene: &Scene, t: f64) -> Scene {
     scene.with_foot((scene.h() as f32).into(), nearest - f64::from(t_prime(nearest) as f32))
 }
 
-fn offset_floor(scene: &Scene, strategy: Strategy, u: f64) -> Option<f64> {
+fn offset_floor(scene: &Scene, strategy: Strategy, moved: f64, u: f64) -> Option<f64> {
     let t = rounded(scene, scene.invert(strategy, u)).invert(strategy, u);
-    offset_error(scene, strategy, [t, t], u)
+    offset_error(scene, strategy, [t - moved, t + moved], u)
 }
 
 fn pdf_floor(scene: &Scene, strategy: Strategy, t: f64) -> Option<f64> {
