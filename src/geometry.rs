@@ -2,7 +2,7 @@
 //!
 //! All of it rests on three numbers computed in double precision and rounded once: `t_h` (where the ray passes the
 //! emitter), `h` (at what distance) and `t' = t - t_h`. With them nothing below cancels, however far the emitter, short
-//! the interval or small `h`: angles are taken between two points of the ray, distances from the nearer end.
+//! the interval or small `h`: angles are taken between two points of the ray, distances from one of its ends.
 
 use crate::scene::{FARTHEST, UNIT_TOLERANCE};
 use crate::simd::math::{angle_of, reciprocal, reciprocal_near};
@@ -45,8 +45,8 @@ const TOLERANCE: f32 = 2.001 * UNIT_TOLERANCE;
 /// Sine of the least angle between a ray and the emitter's plane of which it is known where they meet.
 const FLATTEST: f32 = 1e-30;
 
-/// How much more than half of an angle is measured from the end nearer to the foot of the perpendicular: from the other
-/// one, a short way to the near end is what a long one leaves.
+/// How much beyond half of an angle is still measured from the end that is nearer to the foot of the perpendicular. From
+/// the other end the way to the point is long, and what it leaves to the near end would have the error of all of it.
 pub(crate) const BIAS: f32 = 0.05;
 
 /// One end of the lit interval.
@@ -100,8 +100,9 @@ pub(crate) struct Geometry<I: Isa> {
     /// Ends of the ray itself \[m\].
     pub(crate) t_min: I::V,
     pub(crate) t_max: I::V,
-    /// The square in f64, unless below that of `least_h`.
+    /// `h^2` in f64 where it is not below the square of `least_h`.
     foot_squared: I::Double,
+    /// The least `h` that f64 tells from none at this distance \[m\].
     least_h: I::V,
     t_h: I::Double,
     t_prime_min: I::Double,
@@ -112,7 +113,7 @@ pub(crate) struct Geometry<I: Isa> {
     pub(crate) has_normal: I::Mask,
     /// Which lanes have a part that the emitter faces.
     pub(crate) faced: I::Mask,
-    /// Which of these an interval of which f32 can tell angle and length from none.
+    /// Which of these have an interval whose angle and length f32 can tell from none.
     pub(crate) lit: I::Mask,
     /// Which lanes hold a ray and an emitter at all.
     pub(crate) valid: I::Mask,
@@ -267,7 +268,7 @@ impl<I: Isa> Geometry<I> {
         angle_of(isa, self.h * self.length, self.dot_of_ends())
     }
 
-    /// `BIAS` where `a` is the end nearer to the foot of the perpendicular, else less that.
+    /// `BIAS` where `a` is the end nearer to the foot of the perpendicular, else minus that.
     #[inline(always)]
     pub(crate) fn bias_to_a(&self, isa: I) -> I::V {
         let near_a = self.a.t_prime.abs().lt(self.b.t_prime.abs());

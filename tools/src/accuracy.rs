@@ -169,7 +169,8 @@ impl fmt::Display for Figures {
                 row.bisected
             )?;
             let mut table = table::new(["error", "median", "p99", "p99.9", "p99.99", "max"]);
-            for kind in &row.kinds {
+            // A list with nothing in it has no quantiles.
+            for kind in row.kinds.iter().filter(|kind| !kind.quantiles[0].is_nan()) {
                 let cells = kind.quantiles.map(|value| format!("{value:.1e}"));
                 table.add_row([kind.name.to_owned()].into_iter().chain(cells));
             }

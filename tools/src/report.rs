@@ -26,7 +26,7 @@ pub(crate) struct Args {
     /// Folder of the page index.html, of its figures as .svg and .png, and of their data as .json
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Fewer scenes, rays and rounds: less than two minutes
+    /// Fewer scenes, rays and rounds: about half a minute
     #[arg(long)]
     quick: bool,
     /// Scenes of every set of which variances are taken [default: 2000, or 400 with --quick]
