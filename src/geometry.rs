@@ -131,7 +131,8 @@ impl<I: Isa> Geometry<I> {
         // 1/|d| by its series about |d| = 1: distances are in metres also where d is not quite a unit vector.
         let q = d[2].mul_add(d[2], d[1].mul_add(d[1], d[0].mul_add(d[0], isa.splat_double(-1.0))));
         let unit = q
-            .mul_add(isa.splat_double(-0.3125), isa.splat_double(0.375))
+            .mul_add(isa.splat_double(0.273_437_5), isa.splat_double(-0.3125))
+            .mul_add(q, isa.splat_double(0.375))
             .mul_add(q * q, q.mul_add(isa.splat_double(-0.5), isa.splat_double(1.0)));
         let t_h = dot(e, d) * unit;
         let beta_exact = dot(n, d) * unit;

@@ -117,6 +117,25 @@ fn emitters_seen_edge_on() {
     }
 }
 
+/// An emitter next to the ray sees what distances in metres leave of a direction's length: 1e-12 of it is 1e-5 of `h`.
+#[test]
+fn directions_not_quite_of_unit_length() {
+    let medium = Medium::new(0.1, 0.2, 0.6).unwrap();
+    let lamp = Emitter::point(Vec3::new(1.0, 2e-7, 0.0)).unwrap();
+    for length in [0.9991, 0.9999, 1.0, 1.0001, 1.0009] {
+        let ray = Ray::new(Vec3::ZERO, Vec3::X * length, 0.0, 2.0).unwrap();
+        let scene = Scene::new(&ray, &lamp, &medium);
+        for backend in distinct() {
+            let sampler = Sampler::new(Strategy::EquiAngular).with_backend(backend);
+            for t in [1.0f32.next_down(), 1.0, 1.0f32.next_up(), 1.0f32.next_up().next_up()] {
+                let (f, exact) = (sampler.evaluate_one(&ray, &lamp, &medium, t), scene.integrand(t.into()));
+                let error = (f64::from(f) / exact - 1.0).abs() / f64::from(f32::EPSILON);
+                assert!(error <= 24.0, "{}, length {length}, t {t}: off by {error} times 2^-23", backend.name());
+            }
+        }
+    }
+}
+
 /// It subtends less than 1e-30 rad, which only a density that does not ask for the angle can do with.
 #[test]
 fn a_ray_too_short_for_angles() {

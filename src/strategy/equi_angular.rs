@@ -13,7 +13,7 @@ pub(crate) struct EquiAngular<I: Isa> {
     turn: I::V,
 }
 
-/// Of this angle \[rad\] `BIAS` and a half are a right angle, and `tan(delta/2)` is 1.
+/// The widest angle \[rad\] of which the share `0.5 + BIAS` is at most a right angle, so that `tan(delta/2) <= 1`.
 const WIDEST: f32 = core::f32::consts::FRAC_PI_2 / (0.5 + BIAS);
 
 impl<I: Isa> Density<I> for EquiAngular<I> {
