@@ -45,8 +45,9 @@ const TOLERANCE: f32 = 2.001 * UNIT_TOLERANCE;
 /// Sine of the least angle between a ray and the emitter's plane of which it is known where they meet.
 const FLATTEST: f32 = 1e-30;
 
-/// How much beyond half of an angle is still measured from the end that is nearer to the foot of the perpendicular. From
-/// the other end the way to the point is long, and what it leaves to the near end would have the error of all of it.
+/// For how much of the variates beyond those of half of the angle a point is still measured from the end that is nearer to
+/// the foot of the perpendicular. From the other end the way to it is long, and what it leaves to the near end would have
+/// the error of all of it.
 pub(crate) const BIAS: f32 = 0.05;
 
 /// One end of the lit interval.

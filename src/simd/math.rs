@@ -41,7 +41,8 @@ pub(crate) fn horner_lanes<V: Number, const K: usize>(x: V, c: [V; K]) -> V {
     p
 }
 
-/// The angle of the point `(x, y)`, in `[0, pi]`, for `y >= 0`, not both 0. Max error 1.4 ulp.
+/// The angle of the point `(x, y)`, in `[0, pi]`, for `y >= 0`, not both 0. Max error 1.4 ulp, where `y/x` is
+/// exact; what rounds the quotient comes on top.
 #[inline(always)]
 pub(crate) fn angle_of<I: Isa>(isa: I, y: I::V, x: I::V) -> I::V {
     let c = |v| isa.splat(v);
@@ -63,7 +64,7 @@ pub(crate) fn angle_of<I: Isa>(isa: I, y: I::V, x: I::V) -> I::V {
             -3.333_33e-1,
         ],
     );
-    // The low digits of the right angles are added to what is small: the last sum is the one that rounds.
+    // The low digits of the right angles are added to what is small: the last sum rounds most.
     let back = x.lt(c(0.0));
     let steep = size.lt(y);
     let right_angles = I::V::select(steep, c(PI_2_HIGH), I::V::select(back, c(2.0 * PI_2_HIGH), c(0.0)));

@@ -53,7 +53,8 @@ impl<I: Isa> Density<I> for PointNormal<I> {
         let tan_half = (g.h * g.length) / g.a.r.mul_add(g.b.r, dot);
         let wide = dot.lt(isa.splat(0.0));
         let mut mass = mass_of_cosine::<I>([g.a.n, g.b.n], [s_a, s_b], tan_half, wide);
-        // The mass of half of the angle, were N straight between the ends: from a dark end half of the mass is most of the angle.
+        // The mass of half of the angle, were N straight between the ends; from a dark end half of the mass is most of it.
+        // It is not where the interval is wide, but there half of the mass is within a right angle of either end.
         let sum = g.a.n + g.b.n;
         let half_way = (g.a.n + g.a.n + sum) / (isa.splat(4.0) * sum);
         let turn = I::V::select(wide, isa.splat(0.5), half_way + g.bias_to_a(isa));
