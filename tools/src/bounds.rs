@@ -1,6 +1,7 @@
 //! What is promised of the errors, for every strategy on every family; where it is less than was aimed at, why.
 //!
-//! Seen is the worst of all families and strategies in runs of `airlight accuracy --rays 131072` with some seeds, unless stated.
+//! Seen is the worst of all families and strategies in runs of `airlight accuracy --rays 131072` with some seeds, unless
+//! stated.
 
 use crate::errors::{Errors, quantile};
 use crate::families::Family;
@@ -56,8 +57,8 @@ pub fn bounds(strategy: Strategy, family: Family) -> Vec<Bound> {
     // the angle, and of a ray that goes on far beyond, the distance has 2.2 times their share; seven more make the point of
     // it. All of one sign they would be 25 halves of an ulp of a number just above 1, or 25 ulp of one just below 2. That is
     // never seen: in 2^20 rays of the worst family, with several seeds, 6.1 to 6.7 at p99.99 and 11 at most; of the
-    // point-normal density, whose mass and cosines have as many roundings, 6 at p99.9, 7.5 to 8 at p99.99 (9 of 2^16 rays), and
-    // 14.
+    // point-normal density, whose mass and cosines have as many roundings, 6 at p99.9, 7.5 to 8 at p99.99 (9 of
+    // 2^16 rays), and 14.
     if matches!(strategy, Strategy::EquiAngular | Strategy::PointNormal) {
         let limit = if strategy == Strategy::PointNormal { 10.0 } else { 8.0 };
         bounds.push(Bound { figure: "offset_p999", read: |e| high_quantile(&e.offset, 0.999), limit: 8.0 });
