@@ -122,6 +122,11 @@ impl Row {
         self.quantiles.get(key)?.as_f64()
     }
 
+    /// The kinds that there are errors of: a list with nothing in it has no quantiles.
+    fn printed(&self) -> impl Iterator<Item = &Kind> {
+        self.kinds.iter().filter(|kind| !kind.quantiles[0].is_nan())
+    }
+
     fn new(strategy: Strategy, family: Family, backend: Backend, errors: &Errors) -> Self {
         let kinds: Vec<Kind> = errors
             .lists()
@@ -133,7 +138,10 @@ impl Row {
         let broken = bounds(strategy, family)
             .iter()
             .filter(|bound| !bound.holds(errors))
-            .map(|bound| format!("{} = {:.2e} exceeds {:.2e}", bound.figure, (bound.read)(errors), bound.limit))
+            .map(|bound| match (bound.read)(errors) {
+                figure if figure.is_nan() => format!("{}: there is no ray to check it on", bound.figure),
+                figure => format!("{} = {figure:.2e} exceeds {:.2e}", bound.figure, bound.limit),
+            })
             .collect();
         Self {
             strategy: strategy.name(),
@@ -149,6 +157,25 @@ impl Row {
             broken,
             kinds,
         }
+    }
+}
+
+/// What the errors of a name are.
+fn legend(name: &str) -> &'static str {
+    match name {
+        "cdf" => "|CDF(t) - u|",
+        "cdf_resolved" => "the same where half an ulp of t changes the CDF by 2^-18 at most",
+        "cdf_floor" => "what exact arithmetic, rounded to f32 once, has for cdf; on every 16th ray",
+        "cdf_beyond_t" => "how far u is from the CDFs of all distances that round to t",
+        "offset" => "distance from the nearer end of the interval, beyond the rounding of t [ulp]",
+        "offset_floor" => "what exact arithmetic on geometry rounded to f32 has for offset; on every 16th ray [ulp]",
+        "pdf" => "density at t [ulp]",
+        "pdf_floor" => "what exact arithmetic on geometry rounded to f32 has for pdf; on every 16th ray [ulp]",
+        "r" => "distance to the emitter, beyond the rounding of t, or of u to 2^-20 [ulp]",
+        "integrand" => "integrand at t, where h, from the emitter to the line, is at least 1e-7 of the distance [ulp]",
+        "integrand_near" => "the same where h is less [ulp]",
+        "weight" => "weight, relative, beyond the rounding of t, or of u to 2^-20; on every 16th ray",
+        _ => "",
     }
 }
 
@@ -169,8 +196,7 @@ impl fmt::Display for Figures {
                 row.bisected
             )?;
             let mut table = table::new(["error", "median", "p99", "p99.9", "p99.99", "max"]);
-            // A list with nothing in it has no quantiles.
-            for kind in row.kinds.iter().filter(|kind| !kind.quantiles[0].is_nan()) {
+            for kind in row.printed() {
                 let cells = kind.quantiles.map(|value| format!("{value:.1e}"));
                 table.add_row([kind.name.to_owned()].into_iter().chain(cells));
             }
@@ -179,10 +205,52 @@ impl fmt::Display for Figures {
                 writeln!(f, "  BROKEN: {broken}")?;
             }
         }
+        let printed = |name: &str| self.0.iter().flat_map(Row::printed).any(|kind| kind.name == name);
+        let kinds: Vec<&str> = Errors::default().lists().map(|(name, _)| name).into();
+        if kinds.iter().any(|name| printed(name)) {
+            writeln!(f, "errors: quantiles over the sampled rays, and the largest")?;
+        }
+        for name in kinds.into_iter().filter(|name| printed(name)) {
+            writeln!(f, "  {name:14}  {}", legend(name))?;
+        }
+        writeln!(f, "numbers of rays")?;
+        writeln!(f, "  nonfinite       something is NaN or infinite")?;
+        writeln!(f, "  out of range    t is outside [t_min, t_max], or something is negative")?;
+        writeln!(f, "  misjudged       sampled with nothing to sample, or the reverse")?;
+        writeln!(f, "  bisected        the iteration fell back to bisection, or took many steps\n")?;
         let broken: usize = self.0.iter().map(|row| row.broken.len()).sum();
         match broken {
             0 => writeln!(f, "every bound holds"),
             _ => writeln!(f, "{broken} bounds are broken"),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_kind_of_error_has_a_legend() {
+        for (name, _) in Errors::default().lists() {
+            assert!(!legend(name).is_empty(), "{name}");
+        }
+    }
+
+    #[test]
+    fn what_is_printed_is_explained_and_nothing_else() {
+        let sampler = Sampler::new(Strategy::Product5);
+        let row = |rays| {
+            let errors = Errors::measure(&sampler, Family::Generic, rays, 0, |_| ());
+            Row::new(Strategy::Product5, Family::Generic, Backend::detect(), &errors)
+        };
+        let text = Figures(vec![row(200)]).to_string();
+        for name in ["cdf_resolved", "pdf_floor", "integrand"] {
+            assert!(text.lines().any(|line| line.trim().starts_with(name) && line.contains(legend(name))), "{text}");
+        }
+        // A product density has no offsets, and no generic ray passes so near.
+        assert!(!text.contains("offset") && !text.contains("integrand_near"), "{text}");
+        let nothing = Figures(vec![row(0)]).to_string();
+        assert!(!nothing.contains("NaN") && nothing.contains("cdf_p999: there is no ray to check it on"), "{nothing}");
     }
 }

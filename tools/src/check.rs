@@ -16,8 +16,8 @@ const RESOLUTION: f64 = 4.0 * f32::EPSILON as f64;
 pub(crate) struct Check {
     /// The rays, in ascending order.
     pub(crate) rays: Vec<usize>,
-    /// Their scenes and radiances by quadrature; none for an invalid ray.
-    scenes: Vec<Option<(Scene, f64)>>,
+    /// Their scenes and radiances by quadrature.
+    scenes: Vec<(Scene, f64)>,
 }
 
 /// A strategy's estimate beside the quadrature.
@@ -32,45 +32,48 @@ pub(crate) struct Comparison {
 }
 
 impl Comparison {
-    /// By how many standard errors the estimate is above the quadrature.
-    pub(crate) fn z(&self) -> f64 {
+    /// By how many standard errors the estimate is above the quadrature; none where there is no light, or less than f32
+    /// can hold, in either.
+    pub(crate) fn z(&self) -> Option<f64> {
+        let least = f64::from(f32::MIN_POSITIVE);
         let difference = self.estimate - self.quadrature;
-        difference / self.stderr.hypot(RESOLUTION * self.quadrature + f64::from(f32::MIN_POSITIVE))
+        (self.estimate > 0.0 || self.quadrature >= least)
+            .then(|| difference / self.stderr.hypot(RESOLUTION * self.quadrature + least))
     }
 }
 
 impl Check {
-    /// `count` of the first `reached` rays, the same for every seed.
-    pub(crate) fn new(wavefront: &Wavefront, medium: &Medium, reached: usize, count: usize) -> Self {
-        let rays = spread(reached, count.min(reached), 0);
-        let scene = |&i: &usize| {
-            let scene = Scene::new(&wavefront.ray(i).ok()?, &wavefront.emitter(i).ok()?, medium);
-            Some((scene, scene.radiance()))
+    /// `count` of the rays `valid`, the same for every seed.
+    pub(crate) fn new(wavefront: &Wavefront, medium: &Medium, valid: &[usize], count: usize) -> Self {
+        let drawn = spread(valid.len(), count.min(valid.len()), 0);
+        let scene = |i: usize| {
+            let (ray, emitter) = wavefront.ray(valid[i]).ok()?;
+            let scene = Scene::new(&ray, &emitter, medium);
+            Some((valid[i], (scene, scene.radiance())))
         };
-        let scenes = rays.par_iter().map(scene).collect();
+        let (rays, scenes) = drawn.into_par_iter().filter_map(scene).unzip();
         Self { rays, scenes }
     }
 
     /// What `strategy` made of the subset; none if that is empty.
     pub(crate) fn compare(&self, strategy: Strategy, strata: &Strata) -> Option<Comparison> {
         let count = self.rays.len() as f64;
-        let quadrature = self.scenes.iter().flatten().map(|(_, radiance)| radiance).sum::<f64>() / count;
-        let of_mean = |(&i, scene): (&usize, &Option<(Scene, f64)>)| {
-            let (scene, radiance) = scene.as_ref()?;
+        // The sum of no numbers is -0.
+        let quadrature = 0.0 + self.scenes.iter().map(|(_, radiance)| radiance).sum::<f64>() / count;
+        let of_mean = |(&i, (scene, radiance)): (&usize, &(Scene, f64))| {
             // By quadrature: a weight with a heavy tail hides its variance from its own samples.
             Some(scene.relative_variance(strategy)? * radiance * radiance / strata.samples(i))
         };
         // Collected before it is summed: the order must not depend on the threads.
         let variances: Vec<f64> = self.rays.par_iter().zip(&self.scenes).filter_map(of_mean).collect();
-        let stderr = variances.iter().sum::<f64>().sqrt() / count;
+        let stderr = (0.0 + variances.iter().sum::<f64>()).sqrt() / count;
         Some(Comparison { estimate: strata.of(&self.rays).mean?, stderr, quadrature })
     }
 
     /// `|CDF(t) - u|` of the rays that have a sample, in ascending order.
     pub(crate) fn cdf_errors(&self, strategy: Strategy, u: &[f32], t: &[f32], pdf: &[f32]) -> Vec<f64> {
-        let error = |(&i, scene): (&usize, &Option<(Scene, f64)>)| {
-            let (scene, _) = scene.as_ref().filter(|_| pdf[i] > 0.0)?;
-            Some((scene.cdf(strategy, f64::from(t[i])) - f64::from(u[i])).abs())
+        let error = |(&i, (scene, _)): (&usize, &(Scene, f64))| {
+            (pdf[i] > 0.0).then(|| (scene.cdf(strategy, f64::from(t[i])) - f64::from(u[i])).abs())
         };
         let mut errors: Vec<f64> = self.rays.par_iter().zip(&self.scenes).filter_map(error).collect();
         errors.sort_by(f64::total_cmp);
@@ -107,9 +110,17 @@ mod tests {
 
     #[test]
     fn z_counts_standard_errors_and_not_the_rounding_of_f32() {
-        let z = |estimate, stderr| Comparison { estimate, stderr, quadrature: 2.0 }.z();
+        let z = |estimate, stderr| Comparison { estimate, stderr, quadrature: 2.0 }.z().unwrap();
         assert!((z(2.3, 0.1) - 3.0).abs() < 1e-6);
         assert!(z(2.0 + 2e-7, 0.0) < 1.0);
         assert_eq!(z(2.0, 0.0), 0.0);
+    }
+
+    #[test]
+    fn nothing_beside_nothing_has_no_z() {
+        let z = |estimate, quadrature| Comparison { estimate, stderr: 0.0, quadrature }.z();
+        assert_eq!((z(0.0, 0.0), z(0.0, 1e-39)), (None, None));
+        assert!(z(0.0, 1e-30).unwrap() < -1e3);
+        assert!(z(1e-30, 0.0).unwrap() > 1e3);
     }
 }

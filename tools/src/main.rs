@@ -14,6 +14,7 @@ mod report;
 mod sample;
 mod strata;
 mod table;
+mod validity;
 mod variance;
 mod wavefront;
 

@@ -76,6 +76,9 @@ pub(crate) fn run(args: &Args) -> Result<()> {
     ensure!(args.compare || args.strategy.len() <= 1, "several --strategy need --compare");
     let out = args.out.as_deref().map(ImageFile::new).transpose()?;
     let json = args.json.target()?;
+    if out.is_none() && !args.compare {
+        eprintln!("no picture is written without --out");
+    }
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(args.threads.unwrap_or(0))
         .build()

@@ -8,6 +8,7 @@ use crate::check::Check;
 use crate::output::{self, Target};
 use crate::progress::{self, Part};
 use crate::strata::Strata;
+use crate::validity::Validity;
 use crate::wavefront::Wavefront;
 use airlight::{Counts, Media, Medium, Sampler, Samples, Strategy};
 use airlight_tools::variates;
@@ -70,8 +71,11 @@ pub(crate) fn run(args: &Args) -> Result<()> {
 /// The figures of every strategy, and the first repetition of the last.
 pub(crate) fn measure(args: &Args, progress: Part<'_>) -> Result<(Figures, Columns)> {
     let wavefront = &args.wavefront.as_deref().map_or_else(Wavefront::cornell, Wavefront::read)?;
+    let check = |i| wavefront.ray(i).and(wavefront.variate(i)).map(|_| ());
+    let validity = Validity::of(wavefront.len(), check);
+    let valid = validity.first(args.rays.min(wavefront.len())).with_context(|| wavefront.name.clone())?;
     progress.tell("quadrature");
-    let check = Check::new(wavefront, &args.medium, args.rays.min(wavefront.len()), args.check);
+    let check = Check::new(wavefront, &args.medium, valid, args.check);
 
     let mut rows = Vec::new();
     let mut first = Columns::default();
@@ -89,6 +93,7 @@ pub(crate) fn measure(args: &Args, progress: Part<'_>) -> Result<(Figures, Colum
         medium: args.medium.into(),
         seed: args.seed,
         threads: rayon::current_num_threads(),
+        invalid_rays: validity.invalid,
         results: rows,
     };
     Ok((figures, first))
@@ -174,7 +179,7 @@ impl Run {
             check_estimate: subset.map(|c| c.estimate),
             check_stderr: subset.map(|c| c.stderr),
             check_quadrature: subset.map(|c| c.quadrature),
-            check_z: subset.map(|c| c.z()),
+            check_z: subset.and_then(|c| c.z()),
             cdf_p999: quantile(&errors, 0.999),
             cdf_max: errors.last().copied(),
         }

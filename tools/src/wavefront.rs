@@ -6,8 +6,8 @@ use anyhow::{Context, Result, bail, ensure};
 use glam::Vec3;
 use std::io::{Cursor, Read};
 use std::path::Path;
-use zip::ZipArchive;
 use zip::result::ZipError;
+use zip::{SUPPORTED_COMPRESSION_METHODS, ZipArchive};
 
 /// The wavefront that is built in, described in `data/README.md`.
 const CORNELL: &[u8] = include_bytes!("../data/cornell.npz");
@@ -54,6 +54,9 @@ impl Wavefront {
             u: archive.column("u")?,
         };
         ensure!(wavefront.len() > 0, "the wavefront is empty: its columns have no values");
+        if let Some(conversions) = archive.conversions() {
+            eprintln!("{}: converted to float32: {conversions}", wavefront.name);
+        }
         Ok(wavefront)
     }
 
@@ -77,15 +80,23 @@ impl Wavefront {
         Emitters::Each { position: first(&self.position, count), normal: first(&self.normal, count) }
     }
 
-    /// Ray number `i`.
-    pub(crate) fn ray(&self, i: usize) -> Result<Ray, Error> {
-        Ray::new(vector(&self.origin, i), vector(&self.direction, i), self.t_min[i], self.t_max[i])
+    /// Ray number `i` and its emitter.
+    pub(crate) fn ray(&self, i: usize) -> Result<(Ray, Emitter), Error> {
+        let ray = Ray::new(vector(&self.origin, i), vector(&self.direction, i), self.t_min[i], self.t_max[i])?;
+        let (position, normal) = (vector(&self.position, i), vector(&self.normal, i));
+        let emitter =
+            if normal == Vec3::ZERO { Emitter::point(position)? } else { Emitter::point_normal(position, normal)? };
+        Ok((ray, emitter))
     }
 
-    /// The emitter of ray number `i`.
-    pub(crate) fn emitter(&self, i: usize) -> Result<Emitter, Error> {
-        let (position, normal) = (vector(&self.position, i), vector(&self.normal, i));
-        if normal == Vec3::ZERO { Emitter::point(position) } else { Emitter::point_normal(position, normal) }
+    /// The variate of ray number `i` in the first repetition.
+    pub(crate) fn variate(&self, i: usize) -> Result<f32, Error> {
+        let u = self.u[i];
+        if (0.0..=1.0).contains(&u) {
+            Ok(u)
+        } else {
+            Err(Error::Value { field: "u", value: u, expected: "0 <= u <= 1" })
+        }
     }
 }
 
@@ -100,14 +111,19 @@ fn vector(columns: &[Vec<f32>; 3], i: usize) -> Vec3 {
 /// An .npz file, whose columns must be of one length.
 struct Archive<'a> {
     zip: ZipArchive<Cursor<&'a [u8]>>,
+    /// Names that are there more than once.
+    repeated: Vec<&'a [u8]>,
     /// The first column and its length.
     reference: Option<(&'static str, usize)>,
+    /// Dtypes other than that of a wavefront, and the columns that have them.
+    converted: Vec<(String, Vec<&'static str>)>,
 }
 
 impl<'a> Archive<'a> {
     fn open(file: &'a [u8]) -> Result<Self> {
         let zip = ZipArchive::new(Cursor::new(file)).context("not a complete .npz file")?;
-        Ok(Self { zip, reference: None })
+        let repeated = if zip.has_duplicate_names() { repeated(file, &zip) } else { Vec::new() };
+        Ok(Self { zip, repeated, reference: None, converted: Vec::new() })
     }
 
     fn columns(&mut self, names: [&'static str; 3]) -> Result<[Vec<f32>; 3]> {
@@ -116,25 +132,70 @@ impl<'a> Archive<'a> {
     }
 
     fn column(&mut self, name: &'static str) -> Result<Vec<f32>> {
-        let values = match self.file(name) {
+        let column = match self.file(name) {
             Ok(file) => npy::decode(&file),
             Err(error) => Err(error),
-        }
-        .with_context(|| format!("column '{name}'"))?;
+        };
+        let npy::Column { values, converted_from } = column.with_context(|| format!("column '{name}'"))?;
         let (first, length) = *self.reference.get_or_insert((name, values.len()));
         if values.len() != length {
             bail!("column '{name}' has {} values, column '{first}' has {length}", values.len());
         }
+        if let Some(dtype) = converted_from {
+            match self.converted.iter_mut().find(|(known, _)| *known == dtype) {
+                Some((_, names)) => names.push(name),
+                None => self.converted.push((dtype, vec![name])),
+            }
+        }
         Ok(values)
     }
 
+    /// Which columns were converted from what, if any.
+    fn conversions(&self) -> Option<String> {
+        let told = |(dtype, names): &(String, Vec<&str>)| format!("{} from {dtype}", names.join(", "));
+        let told: Vec<String> = self.converted.iter().map(told).collect();
+        (!told.is_empty()).then(|| told.join("; "))
+    }
+
     fn file(&mut self, name: &str) -> Result<Vec<u8>> {
-        let mut entry = match self.zip.by_name(&format!("{name}.npy")) {
+        let name = format!("{name}.npy");
+        ensure!(!self.repeated.contains(&name.as_bytes()), "is there more than once");
+        let mut entry = match self.zip.by_name(&name) {
             Err(ZipError::FileNotFound) => bail!("is missing"),
             entry => entry?,
         };
+        let compression = entry.compression();
+        ensure!(
+            SUPPORTED_COMPRESSION_METHODS.contains(&compression),
+            "the compression {compression} is not supported, expected Stored or Deflated"
+        );
         let mut file = Vec::new();
         entry.read_to_end(&mut file).context("the data are corrupt")?;
         Ok(file)
     }
+}
+
+/// The names that the directory of an archive has more than once.
+fn repeated<'a>(file: &'a [u8], zip: &ZipArchive<Cursor<&'a [u8]>>) -> Vec<&'a [u8]> {
+    const ENTRY: &[u8] = b"PK\x01\x02";
+    /// Bytes of an entry before its name; the lengths of the name, an extra field and a comment are at 28.
+    const NAME: usize = 46;
+    let entry = |at: usize| {
+        let entry = file.get(at..)?;
+        let length = |at: usize| Some(usize::from(u16::from_le_bytes(entry.get(at..at + 2)?.try_into().ok()?)));
+        let [name, extra, comment] = [length(28)?, length(30)?, length(32)?];
+        let next = at + NAME + name + extra + comment;
+        Some((entry.starts_with(ENTRY).then(|| entry.get(NAME..NAME + name))??, next))
+    };
+    let (mut once, mut repeated) = (Vec::new(), Vec::new());
+    let mut at = usize::try_from(zip.central_directory_start()).unwrap_or(usize::MAX);
+    while let Some((name, next)) = entry(at) {
+        if once.contains(&name) {
+            repeated.push(name);
+        } else {
+            once.push(name);
+        }
+        at = next;
+    }
+    repeated
 }

@@ -41,6 +41,14 @@ fn succeed(arguments: &[&str]) -> String {
     String::from_utf8(output.stdout).unwrap()
 }
 
+/// Standard output of a run that must succeed, and what it says on standard error.
+fn succeed_with_a_word(arguments: &[&str]) -> (String, String) {
+    let output = airlight(arguments);
+    let [stdout, stderr] = [output.stdout, output.stderr].map(|text| String::from_utf8(text).unwrap());
+    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {stderr}");
+    (stdout, stderr)
+}
+
 /// The one line on standard error of a run that must fail and say nothing on standard output.
 fn fail(arguments: &[&str]) -> String {
     let output = airlight(arguments);
@@ -273,23 +281,64 @@ fn a_bad_wavefront_is_refused_by_name_and_nothing_is_written() {
         file[at] ^= 1;
         file
     };
+    // The method stands in the header of every file and in the directory.
+    let compressed = |method| {
+        let mut file = stored.clone();
+        for at in 0..file.len() {
+            match &file[at..] {
+                [b'P', b'K', 3, 4, ..] => file[at + 8] = method,
+                [b'P', b'K', 1, 2, ..] => file[at + 10] = method,
+                _ => {}
+            }
+        }
+        file
+    };
+    // "ol.npy" becomes a second "oz.npy".
+    let twice = {
+        let mut file = good.clone().with_all(&[("ol", vec![0.0; 8])]).stored();
+        while let Some(at) = file.windows(6).position(|bytes| bytes == b"ol.npy") {
+            file[at + 1] = b'z';
+        }
+        file
+    };
     let values = |column: &str, dtype, shape, bytes| good.clone().with(column, dtype, shape, &vec![0; bytes]).stored();
     let empty = COLUMNS.iter().fold(good.clone(), |npz, name| npz.with(name, "'<f4'", "(0,)", &[])).stored();
     let cases = [
         ("missing column", good.clone().without("nz").stored(), "column 'nz': is missing"),
         ("length", values("ey", "'<f4'", "(7,)", 28), "column 'ey' has 7 values, column 'ox' has 8"),
-        ("float64", values("t_max", "'<f8'", "(8,)", 64), "column 't_max': dtype is float64 ('<f8')"),
-        ("int32", values("u", "'<i4'", "(8,)", 32), "column 'u': dtype is int32 ('<i4')"),
+        (
+            "float128",
+            values("t_max", "'<f16'", "(8,)", 128),
+            "column 't_max': dtype is float128 ('<f16'), expected float",
+        ),
+        ("int32", values("u", "'<i4'", "(8,)", 32), "column 'u': dtype is int32 ('<i4'), expected float16, float32 or"),
         ("bool", values("u", "'|b1'", "(8,)", 8), "column 'u': dtype is bool ('|b1')"),
         ("structured", values("u", "[('x', '<f4')]", "(8,)", 32), "column 'u': dtype is structured ([('x', '<f4')])"),
-        ("big-endian", values("dz", "'>f4'", "(8,)", 32), "column 'dz': dtype is big-endian float32 ('>f4')"),
-        ("two dimensions", values("dz", "'<f4'", "(4, 2)", 32), "column 'dz': has 2 dimensions, expected 1"),
-        ("no dimension", values("dz", "'<f4'", "()", 4), "column 'dz': has 0 dimensions, expected 1"),
+        ("big-endian", values("dz", "'>i2'", "(8,)", 16), "column 'dz': dtype is big-endian int16 ('>i2')"),
+        (
+            "column vector",
+            values("dz", "'<f4'", "(8, 1)", 32),
+            "'dz': has shape (8, 1), expected one dimension: ravel it",
+        ),
+        (
+            "two dimensions",
+            values("dz", "'<f8'", "(4, 2)", 64),
+            "'dz': has shape (4, 2), expected one dimension: ravel it",
+        ),
+        ("no dimension", values("dz", "'<f4'", "()", 4), "column 'dz': has shape (), expected one dimension: ravel it"),
         ("short", values("oz", "'<f4'", "(8,)", 31), "column 'oz': holds 31 bytes of data, expected 8 values of 4"),
         ("long", values("oz", "'<f4'", "(8,)", 36), "column 'oz': holds 36 bytes of data, expected 8 values of 4"),
+        (
+            "short float64",
+            values("oz", "'<f8'", "(8,)", 32),
+            "column 'oz': holds 32 bytes of data, expected 8 values of 8",
+        ),
         ("huge", values("oz", "'<f4'", "(99999999999999999999,)", 32), "column 'oz': the .npy header"),
         ("truncated", stored[..stored.len() / 2].to_vec(), "not a complete .npz file"),
         ("corrupt", corrupt, "column 't_max': the data are corrupt"),
+        ("bzip2", compressed(12), "column 'ox': the compression Bzip2 is not supported, expected Stored or Deflated"),
+        ("lzma", compressed(14), "column 'ox': the compression Lzma is not supported, expected Stored or Deflated"),
+        ("twice", twice, "column 'oz': is there more than once"),
         ("text", b"ox oy oz\n".to_vec(), "not a complete .npz file"),
         ("nothing", vec![], "not a complete .npz file"),
         ("empty", empty, "the wavefront is empty"),
@@ -305,6 +354,159 @@ fn a_bad_wavefront_is_refused_by_name_and_nothing_is_written() {
         assert!(told.contains(expected) && told.contains(&wavefront), "{case}: {told}");
         assert_eq!(names(folder.path()), ["bad.npz"], "{case}");
     }
+}
+
+/// The radiance that `sample` finds of a wavefront, and what it says on standard error.
+fn told_of(npz: &Npz) -> (String, String) {
+    let (_folder, wavefront) = folder_with("w.npz", &npz.stored());
+    let arguments = ["sample", &wavefront, "--strategy", "point-normal", "--rays", "8", "--json", "-"];
+    let (json, told) = succeed_with_a_word(&arguments);
+    let figures: Value = serde_json::from_str(&json).unwrap();
+    (figures["results"][0]["radiance"].to_string(), told.replace(&wavefront, "w.npz"))
+}
+
+#[test]
+fn columns_of_other_floats_are_converted_and_named_in_one_line() {
+    let npz = Npz::wavefront();
+    let (expected, told) = told_of(&npz);
+    assert_eq!(told, "");
+    // All values but those of u are whole quarters, or NaN.
+    let double = |npz: Npz, name: &str| {
+        let data: Vec<u8> = npz.column(name).iter().flat_map(|&value| f64::from(value).to_le_bytes()).collect();
+        npz.with(name, "'<f8'", "(8L,)", &data)
+    };
+    let swapped: Vec<u8> = npz.column("u").iter().flat_map(|value| value.to_be_bytes()).collect();
+    let native: Vec<u8> = npz.column("ny").iter().flat_map(|value| value.to_ne_bytes()).collect();
+    // 1 in half precision.
+    let half = [0x3c, 0].repeat(8);
+    let npz = COLUMNS[..8].iter().fold(npz, |npz, name| double(npz, name));
+    let npz = npz.with("u", "'>f4'", "(8,)", &swapped).with("ny", "'f4'", "(8,)", &native);
+    let (radiance, told) = told_of(&npz.with("ey", "'>f2'", "(8,)", &half));
+    assert_eq!(radiance, expected);
+    assert_eq!(
+        told,
+        "w.npz: converted to float32: ox, oy, oz, dx, dy, dz, t_min, t_max from float64 ('<f8'); ey from big-endian \
+         float16 ('>f2'); u from big-endian float32 ('>f4')\n"
+    );
+}
+
+#[test]
+fn a_float64_beyond_f32_makes_its_ray_invalid() {
+    let data: Vec<u8> = (0..8).flat_map(|i| if i == 2 { 1e300f64 } else { 0.0 }.to_le_bytes()).collect();
+    let (_folder, wavefront) = folder_with("w.npz", &Npz::wavefront().with("oy", "'<f8'", "(8,)", &data).stored());
+    let (json, _) = succeed_with_a_word(&["sample", &wavefront, "--rays", "8", "--json", "-"]);
+    let figures: Value = serde_json::from_str(&json).unwrap();
+    let invalid = &figures["invalid_rays"];
+    assert_eq!((&invalid["count"], &invalid["first"]), (&Value::from(2), &Value::from(2)), "{invalid}");
+    assert_eq!(invalid["reason"], "origin is inf, expected coordinates of at most 1e18 in size");
+}
+
+/// A wavefront, all of whose rays are valid but for what is done to columns of some of them.
+fn with_faults(faults: &[(&str, usize, f32)]) -> Npz {
+    let npz = Npz::wavefront().with_all(&[("dx", vec![1.0; 8])]);
+    faults.iter().fold(npz, |npz, &(name, ray, value)| {
+        let mut column = npz.column(name);
+        column[ray] = value;
+        npz.with_all(&[(name, column)])
+    })
+}
+
+#[test]
+fn invalid_rays_are_counted_and_the_first_one_is_told_with_its_reason() {
+    for (fault, reason) in [
+        (("dx", 2.0), "direction is 2, expected length 1 within 1e-3"),
+        (("dx", f32::NAN), "direction is NaN, expected length 1 within 1e-3"),
+        (("t_min", 4.0), "t_max is 3, expected t_min <= t_max"),
+        (("t_min", -1.0), "t_min is -1, expected 0 <= t_min <= 1e18"),
+        (("ex", f32::INFINITY), "position is inf, expected coordinates of at most 1e18 in size"),
+        (("nz", 3.0), "normal is 3, expected length 1 within 1e-3"),
+        (("u", 1.5), "u is 1.5, expected 0 <= u <= 1"),
+        (("u", -0.25), "u is -0.25, expected 0 <= u <= 1"),
+        (("u", f32::NAN), "u is NaN, expected 0 <= u <= 1"),
+    ] {
+        let (name, value) = fault;
+        let (_folder, wavefront) = folder_with("w.npz", &with_faults(&[(name, 4, value), (name, 6, value)]).stored());
+        let arguments = ["sample", &wavefront, "--strategy", "equi-angular", "--rays", "8"];
+        let table = succeed(&arguments);
+        let line = format!("2 of 8 rays are invalid, the first is ray 4: {reason}");
+        assert!(table.lines().any(|told| told == line), "{line}: {table}");
+
+        let figures: Value = serde_json::from_str(&succeed(&[&arguments[..], &["--json", "-"]].concat())).unwrap();
+        assert_eq!(figures["invalid_rays"], serde_json::json!({ "count": 2, "first": 4, "reason": reason }));
+        let row = &figures["results"][0];
+        assert_eq!((&row["sampled"], &row["invalid"], &row["check_rays"]), (&6.into(), &2.into(), &6.into()), "{row}");
+        // Of the valid ones the estimate agrees.
+        assert!(row["check_z"].as_f64().unwrap().abs() < 5.0, "{row}");
+    }
+}
+
+#[test]
+fn of_a_valid_wavefront_no_ray_is_told_invalid() {
+    // A ray of no length is valid.
+    let (_folder, wavefront) = folder_with("w.npz", &with_faults(&[("t_max", 3, 0.0)]).stored());
+    assert!(!succeed(&["sample", &wavefront, "--rays", "8"]).contains("rays are invalid"));
+    let figures: Value = serde_json::from_str(&succeed(&["sample", &wavefront, "--rays", "8", "--json", "-"])).unwrap();
+    assert!(figures["invalid_rays"].is_null() && figures.as_object().unwrap().contains_key("invalid_rays"));
+    let row = &figures["results"][1];
+    assert_eq!((&row["strategy"], &row["empty"], &row["invalid"]), (&"equi-angular".into(), &1.into(), &0.into()));
+}
+
+#[test]
+fn a_wavefront_without_a_valid_ray_is_refused_with_the_reason() {
+    let (_folder, wavefront) = folder_with("w.npz", &with_faults(&[]).with_all(&[("dz", vec![2.0; 8])]).stored());
+    let reason = "none of 8 rays is valid, the first is ray 0: direction is 2.236068, expected length 1 within 1e-3";
+    for arguments in
+        [&["sample", &wavefront][..], &["sample", &wavefront, "--json", "-"], &["variance", "--set", &wavefront]]
+    {
+        let told = fail(arguments);
+        assert_eq!(told, format!("error: {wavefront}: {reason}\n"), "{arguments:?}");
+    }
+    // Nor is one of which no ray that is to be sampled is valid.
+    let faults = [("dx", 0, 2.0), ("dx", 1, 0.0)];
+    let (_folder, wavefront) = folder_with("w.npz", &with_faults(&faults).stored());
+    let told = fail(&["sample", &wavefront, "--rays", "2"]);
+    assert!(told.contains("none of 2 rays is valid, the first is ray 0: direction is 2,"), "{told}");
+    succeed(&["sample", &wavefront, "--rays", "3"]);
+}
+
+#[test]
+fn variances_are_of_the_valid_rays_and_the_others_are_told() {
+    // A bad variate is none of a scene.
+    let faults = [("dx", 5, 2.0), ("t_min", 6, -1.0), ("u", 1, 7.0)];
+    let (_folder, wavefront) = folder_with("w.npz", &with_faults(&faults).stored());
+    let arguments = ["variance", "--set", &wavefront, "--strategy", "equi-angular", "--json", "-"];
+    let (json, told) = succeed_with_a_word(&arguments);
+    let reason = "direction is 2, expected length 1 within 1e-3";
+    assert_eq!(told, format!("{wavefront}: 2 of 8 rays are invalid, the first is ray 5: {reason}\n"));
+    let rows: Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(rows[0]["scenes"], 6);
+}
+
+#[test]
+fn where_there_is_no_light_there_is_no_z_and_no_minus_zero() {
+    // Empty rays; a medium that does not scatter.
+    let empty = with_faults(&[]).with_all(&[("t_max", vec![0.0; 8])]);
+    for (npz, medium) in [(empty, "0.1,0.3,0.6"), (with_faults(&[]), "0.1,0,0.6")] {
+        let (_folder, wavefront) = folder_with("w.npz", &npz.stored());
+        let arguments = ["sample", &wavefront, "--rays", "16", "--medium", medium];
+        let table = succeed(&arguments);
+        for &strategy in Strategy::ALL {
+            let radiance = table.lines().filter(|line| line.starts_with(&format!("{strategy} "))).nth(1).unwrap();
+            let cells: Vec<&str> = radiance.split_whitespace().collect();
+            assert_eq!(cells[1..7], ["0.00000e0", "0.0e0", "0.00000e0", "0.0e0", "0.00000e0", "-"], "{table}");
+        }
+        let json = succeed(&[&arguments[..], &["--json", "-"]].concat());
+        assert!(!json.contains("-0.0"), "{json}");
+    }
+}
+
+#[test]
+fn a_table_says_what_its_columns_are() {
+    let table = succeed(&["sample", "--rays", "1000", "--check", "10"]);
+    for word in ["sampled, ", "empty", "invalid", "bisected: ", "radiance: ", "+-: ", "z: "] {
+        assert!(table.lines().any(|line| line.contains(word) && line.contains(": ")), "{word}: {table}");
+    }
+    assert!(table.ends_with("estimate, quadrature, z and CDF, which is |CDF(t) - u|: on 10 of the rays\n"), "{table}");
 }
 
 #[test]

@@ -36,6 +36,15 @@ fn succeed(arguments: &[&str]) -> String {
     String::from_utf8(output.stdout).unwrap()
 }
 
+/// Standard output of a run that must succeed and say on standard error that it writes no picture.
+fn succeed_without_a_picture(arguments: &[&str]) -> String {
+    let output = render(arguments);
+    let stderr = String::from_utf8(output.stderr).unwrap();
+    let told = "no picture is written without --out\n";
+    assert_eq!((output.status.code(), &*stderr), (Some(0), told), "{arguments:?}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
 /// The one line on standard error of a run that must fail.
 fn fail(arguments: &[&str]) -> String {
     let output = render(arguments);
@@ -337,7 +346,17 @@ fn a_png_is_an_exr_through_the_tone_curve() {
 
 #[test]
 fn json_tells_what_was_rendered() {
-    let json = succeed(&["--size", "20x10", "--spp", "3", "--mis", "--strategy", "product-9", "--json", "-"]);
+    let json = succeed_without_a_picture(&[
+        "--size",
+        "20x10",
+        "--spp",
+        "3",
+        "--mis",
+        "--strategy",
+        "product-9",
+        "--json",
+        "-",
+    ]);
     let figures: Value = serde_json::from_str(&json).unwrap();
     let mut keys: Vec<&String> = figures.as_object().unwrap().keys().collect();
     keys.sort();
@@ -351,7 +370,7 @@ fn json_tells_what_was_rendered() {
 
 #[test]
 fn time_is_spent_on_whole_passes() {
-    let json = succeed(&["--size", "20x10", "--time", "0.05", "--json", "-"]);
+    let json = succeed_without_a_picture(&["--size", "20x10", "--time", "0.05", "--json", "-"]);
     let figures: Value = serde_json::from_str(&json).unwrap();
     let passes = figures["passes"].as_u64().unwrap();
     assert!(passes >= 1 && figures["samples"] == 200 * passes, "{json}");

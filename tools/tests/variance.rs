@@ -82,6 +82,9 @@ fn the_table_comes_with_json_in_a_file() {
     for name in Contender::all().into_iter().map(Contender::name) {
         assert!(table.lines().any(|line| line.starts_with(name)), "{name} is not in\n{table}");
     }
+    for legend in ["V: ", "above 1: ", "invalid: "] {
+        assert!(table.lines().any(|line| line.starts_with(legend)), "{legend} is not in\n{table}");
+    }
     let rows: Vec<Value> = serde_json::from_slice(&fs::read(file).unwrap()).unwrap();
     assert_eq!(rows.len(), Contender::all().len());
 }

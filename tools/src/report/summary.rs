@@ -5,7 +5,7 @@ use super::palette;
 use super::scale::times;
 use std::fmt::Write;
 
-/// A row per strategy.
+/// A row per strategy; a dash is a figure that nothing was found of.
 pub(super) fn table(findings: &[Finding]) -> String {
     let mut rows = String::new();
     for finding in findings {
@@ -13,12 +13,17 @@ pub(super) fn table(findings: &[Finding]) -> String {
         let corners = palette::marker(*strategy, 16).into_iter().map(|(x, y)| format!("{x},{y}"));
         let corners = corners.collect::<Vec<_>>().join(" ");
         let colour = palette::colour(*strategy).hex();
-        let efficiency = times(*efficiency);
+        let of =
+            |figure: f64, text: &dyn Fn(f64) -> String| if figure.is_nan() { "-".to_owned() } else { text(figure) };
+        let time = of(*ns_per_sample, &|time| format!("{time:.1}"));
+        let [canonical, broad, error] =
+            [variance_canonical, variance_broad, cdf_p999].map(|figure| of(*figure, &|figure| format!("{figure:.1e}")));
+        let efficiency = of(*efficiency, &times);
         let _ = writeln!(
             rows,
             "<tr><th scope=\"row\"><svg class=\"key\" viewBox=\"-9 -9 18 18\" aria-hidden=\"true\"><polygon \
-             points=\"{corners}\" fill=\"{colour}\"/></svg> {strategy}</th><td>{ns_per_sample:.1}</td>\
-             <td>{variance_canonical:.1e}</td><td>{variance_broad:.1e}</td><td>{efficiency}</td><td>{cdf_p999:.1e}</td></tr>"
+             points=\"{corners}\" fill=\"{colour}\"/></svg> {strategy}</th><td>{time}</td>\
+             <td>{canonical}</td><td>{broad}</td><td>{efficiency}</td><td>{error}</td></tr>"
         );
     }
     rows

@@ -1,6 +1,7 @@
 //! What `airlight sample` found, as JSON and as a table.
 
 use crate::table;
+use crate::validity::Invalid;
 use airlight::Medium;
 use serde::Serialize;
 use std::fmt;
@@ -15,6 +16,8 @@ pub(crate) struct Figures {
     pub(crate) medium: Coefficients,
     pub(crate) seed: u64,
     pub(crate) threads: usize,
+    /// What is wrong with the wavefront, if anything.
+    pub(crate) invalid_rays: Option<Invalid>,
     pub(crate) results: Vec<Row>,
 }
 
@@ -75,7 +78,15 @@ impl fmt::Display for Figures {
                 row.bisected.to_string(),
             ]);
         }
-        writeln!(f, "\n{}", table::text(&speed))?;
+        writeln!(f, "\n{}\n", table::text(&speed))?;
+        writeln!(
+            f,
+            "sampled, empty, invalid: samples with a distance, of rays of which nothing is lit, of invalid rays"
+        )?;
+        writeln!(f, "bisected: of the sampled, those whose iteration fell back to bisection, or took many steps")?;
+        if let Some(invalid) = &self.invalid_rays {
+            writeln!(f, "{invalid}")?;
+        }
 
         let mut radiance =
             table::new(["strategy", "radiance", "+-", "estimate", "+-", "quadrature", "z", "CDF p99.9", "CDF max"]);
@@ -93,8 +104,13 @@ impl fmt::Display for Figures {
             ]);
         }
         let checked = self.results.first().map_or(0, |row| row.check_rays);
-        writeln!(f, "\n{}", table::text(&radiance))?;
-        writeln!(f, "\nestimate, quadrature, z and CDF, which is |CDF(t) - u|: on {checked} of the rays")
+        writeln!(f, "\n{}\n", table::text(&radiance))?;
+        writeln!(
+            f,
+            "radiance: mean weight [1/m^2], that of an invalid ray is 0; +-: standard errors, the second by the oracle"
+        )?;
+        writeln!(f, "z: (estimate - quadrature) / standard error")?;
+        writeln!(f, "estimate, quadrature, z and CDF, which is |CDF(t) - u|: on {checked} of the rays")
     }
 }
 

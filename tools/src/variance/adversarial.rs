@@ -58,6 +58,11 @@ impl fmt::Display for Worsts {
                 None => writeln!(f, "nothing is lit")?,
             }
         }
-        Ok(())
+        writeln!(f, "\nthe largest relative variance of one sample that was found, and the scene that has it")?;
+        writeln!(
+            f,
+            "h: from the emitter to the ray's line; t_h: from the ray's start to the point nearest to the emitter"
+        )?;
+        writeln!(f, "beta, alpha: the emitter's normal along the ray, and towards it")
     }
 }

@@ -67,6 +67,14 @@ impl fmt::Display for Figures {
             }
             writeln!(f, "{}", table::text(&table))?;
         }
-        Ok(())
+        writeln!(
+            f,
+            "\nV: variance of one sample's weight over the square of its mean; median to max: of V over the scenes"
+        )?;
+        writeln!(f, "above 1: share of the scenes with V > 1")?;
+        writeln!(
+            f,
+            "invalid: scenes whose density is no number, or 0 where there is light; they count for nothing else"
+        )
     }
 }

@@ -1,11 +1,12 @@
 //! Where the scenes come from.
 
 use crate::check::spread;
+use crate::validity::Validity;
 use crate::wavefront::Wavefront;
 use airlight::Medium;
 use airlight::oracle::Scene;
 use airlight_tools::scenes::Set;
-use anyhow::{Result, ensure};
+use anyhow::{Context, Result, ensure};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
@@ -42,16 +43,21 @@ impl Source {
     }
 
     /// Every set's name and its `count` scenes; of a wavefront at most that many of its rays, spread over it, in
-    /// `medium`, less those that are not lit.
+    /// `medium`, less those that are invalid or not lit.
     pub(super) fn scenes(&self, medium: &Medium, seed: u64, count: usize) -> Result<Vec<(String, Vec<Scene>)>> {
         match self {
             Self::Sets(sets) => Ok(sets.iter().map(|set| (set.name().to_owned(), set.scenes(seed, count))).collect()),
             Self::File(path) => {
                 let wavefront = Wavefront::read(path)?;
-                let scene = |i| Some(Scene::new(&wavefront.ray(i).ok()?, &wavefront.emitter(i).ok()?, medium));
-                let rays = spread(wavefront.len(), count.min(wavefront.len()), seed);
+                let validity = Validity::of(wavefront.len(), |i| wavefront.ray(i).map(|_| ()));
+                let valid = validity.first(wavefront.len()).with_context(|| wavefront.name.clone())?;
+                if let Some(invalid) = &validity.invalid {
+                    eprintln!("{}: {invalid}", wavefront.name);
+                }
+                let scene = |i: usize| wavefront.ray(valid[i]).map(|(ray, emitter)| Scene::new(&ray, &emitter, medium));
+                let drawn = spread(valid.len(), count.min(valid.len()), seed);
                 let scenes: Vec<Scene> =
-                    rays.into_iter().filter_map(scene).filter(|scene| scene.lit().is_some()).collect();
+                    drawn.into_iter().flat_map(scene).filter(|scene| scene.lit().is_some()).collect();
                 ensure!(!scenes.is_empty(), "{}: none of the rays is lit", wavefront.name);
                 Ok(vec![(wavefront.name, scenes)])
             }
