@@ -15,7 +15,7 @@ pub(crate) use self::figures::{Figures, Row};
 use self::peers::{Peer, Peers};
 use self::rounds::take_turns;
 use self::streams::Stream;
-use self::work::{Contestant, Work};
+use self::work::{Contestant, LEAST, Work};
 use crate::arguments::{self, Json};
 use crate::progress::Part;
 use crate::{output, progress};
@@ -35,6 +35,11 @@ const LARGEST_OF_PORTABLE: usize = 1 << 20;
 const COUNTED: usize = 4096;
 /// Samples that share the set-up of one ray, where they do.
 const SHARED: usize = 8;
+/// Rays of calls that have few.
+const FEW: [usize; 5] = [1, 8, 33, 64, 1000];
+/// Rays and samples for each of them, where these are many, and the strategy that is measured so.
+const MANY: [(usize, usize); 2] = [(1, 1 << 22), (1 << 17, 1 << 5)];
+const OF_MANY: Strategy = Strategy::Product9;
 
 /// Measure how fast every kernel is, its stages apart, beside what the machine allows
 #[derive(Debug, clap::Args)]
@@ -91,38 +96,58 @@ pub(crate) fn run(args: &Args) -> Result<()> {
 /// The times of everything that was asked for.
 pub(crate) fn measure(args: &Args, progress: Part<'_>) -> Result<Figures> {
     let peers = args.peers.as_deref().map(Peers::load).transpose()?;
-    let pools = args.pools()?;
+    let pools = Pools::new(args)?;
     let (sizes, rounds) = (args.sizes(), args.rounds());
     let largest = sizes.iter().copied().max().unwrap_or(0);
-    let mut workload = Workload::new(largest);
+    let many = if args.has_many() { &MANY[..] } else { &[] };
+    let rays = many.iter().map(|(rays, _)| *rays).fold(largest.max(LEAST), usize::max);
+    let samples = many.iter().map(|(rays, per_ray)| rays * per_ray).fold(rays, usize::max);
+    let mut workload = Workload::with_variates(rays, samples);
 
-    let batches: Vec<_> = sizes.iter().map(|&rays| (rays, args.contestants(rays, &pools, peers.as_ref()))).collect();
     progress.tell("limits of arithmetic");
-    let strains = take_turns(args.strains(&pools), rounds, |strain| Ok(strain.time()))?;
+    let strains = take_turns(args.strains(&pools.wanted), rounds, Strain::time)?;
     let counted = COUNTED.min(largest);
     let need = |&strategy: &Strategy| Ok((strategy, Need::of(strategy, counted, &mut workload)?));
     let needs: Vec<(Strategy, Need)> = args.strategies().iter().map(need).collect::<Result<_>>()?;
 
     let mut measured: Vec<_> = strains.into_iter().map(|(strain, times)| (strain.subject(), times)).collect();
-    for (rays, contestants) in batches {
-        progress.tell(format!("batches of {rays}"));
-        let batch = take_turns(contestants, rounds, |contestant| {
+    for (name, contestants) in args.groups(&pools, peers.as_ref()) {
+        progress.tell(name);
+        let group = take_turns(contestants, rounds, |contestant| {
             let time = contestant.time(&mut workload);
-            progress.inc(rays);
+            progress.inc(contestant.taken());
             time
         })?;
-        measured.extend(batch.into_iter().map(|(contestant, times)| (contestant.subject(), times)));
+        measured.extend(group.into_iter().map(|(contestant, times)| (contestant.subject(), times)));
     }
     Ok(Figures::new(&measured, &needs))
+}
+
+/// Threads to measure on.
+struct Pools {
+    /// Those that were asked for.
+    wanted: Vec<ThreadPool>,
+    /// One thread.
+    one: ThreadPool,
+}
+
+impl Pools {
+    fn new(args: &Args) -> Result<Self> {
+        let pool = |n| threads::pool(n).context("cannot start the threads");
+        let threads = if args.threads.is_empty() { threads::one_and_all() } else { args.threads.clone() };
+        Ok(Self { wanted: threads.into_iter().map(pool).collect::<Result<_>>()?, one: pool(1)? })
+    }
 }
 
 impl Args {
     /// Samples to draw in all.
     pub(crate) fn steps(&self) -> Result<usize> {
-        let pools = self.pools()?;
+        let pools = Pools::new(self)?;
+        let groups = self.groups(&pools, None);
+        let ours: usize = groups.iter().flat_map(|(_, contestants)| contestants).map(Contestant::taken).sum();
         let peers = if self.peers.is_some() { Peer::ALL.len() } else { 0 };
-        let samples = |&rays: &usize| rays * (self.contestants(rays, &pools, None).len() + peers);
-        Ok(self.sizes().iter().map(samples).sum::<usize>().saturating_mul(self.rounds() + 1))
+        let theirs = peers * self.sizes().iter().map(|&rays| rays.max(LEAST)).sum::<usize>();
+        Ok((ours + theirs).saturating_mul(self.rounds() + 1))
     }
 
     fn rounds(&self) -> usize {
@@ -136,11 +161,6 @@ impl Args {
     fn sizes(&self) -> Vec<usize> {
         let default = if self.quick { &SIZES[1..3] } else { &SIZES };
         if self.rays.is_empty() { default.to_vec() } else { self.rays.clone() }
-    }
-
-    fn pools(&self) -> Result<Vec<ThreadPool>> {
-        let threads = if self.threads.is_empty() { threads::one_and_all() } else { self.threads.clone() };
-        threads.into_iter().map(|n| threads::pool(n).context("cannot start the threads")).collect()
     }
 
     /// The backends to measure on batches of that size, the fastest first.
@@ -167,8 +187,51 @@ impl Args {
         strains
     }
 
+    /// Whether many samples for each of few rays are measured.
+    fn has_many(&self) -> bool {
+        !self.quick && self.strategies().contains(&OF_MANY)
+    }
+
+    /// The fastest of the backends to measure.
+    fn fastest(&self) -> Option<Backend> {
+        let wanted = |name| self.backend.is_empty() || self.backend.iter().any(|backend| backend.name() == name);
+        Backend::available().find(|backend| wanted(backend.name()))
+    }
+
+    /// All that is measured but for the arithmetic: contestants that take turns, and what they have in common.
+    fn groups<'a>(&self, pools: &'a Pools, peers: Option<&'a Peers>) -> Vec<(String, Vec<Contestant<'a>>)> {
+        let batches = |&rays: &usize| (format!("batches of {rays}"), self.batches(rays, &pools.wanted, peers));
+        let mut groups: Vec<_> = self.sizes().iter().map(batches).collect();
+        groups.push(("calls of few rays".to_owned(), self.calls(&pools.one)));
+        groups.push(("few rays, many variates".to_owned(), self.many(&pools.wanted)));
+        groups
+    }
+
+    /// Calls of few rays, one thread.
+    fn calls<'a>(&self, pool: &'a ThreadPool) -> Vec<Contestant<'a>> {
+        let Some(backend) = self.fastest() else { return Vec::new() };
+        let of_strategy = |strategy| {
+            let one = Contestant { work: Work::OneByOne { strategy, backend }, samples: 1, pool };
+            let calls = move |samples| Contestant { work: Work::Calls { strategy, backend }, samples, pool };
+            [one].into_iter().chain(FEW.map(calls))
+        };
+        self.strategies().into_iter().flat_map(of_strategy).collect()
+    }
+
+    /// Many samples for each of few rays.
+    fn many<'a>(&self, pools: &'a [ThreadPool]) -> Vec<Contestant<'a>> {
+        let Some(backend) = self.fastest().filter(|_| self.has_many()) else { return Vec::new() };
+        let of_pool = |pool| {
+            MANY.map(|(rays, per_ray)| {
+                let work = Work::Sample { strategy: OF_MANY, backend, per_ray, wanted: Wanted::Densities };
+                Contestant { work, samples: rays * per_ray, pool }
+            })
+        };
+        pools.iter().flat_map(of_pool).collect()
+    }
+
     /// All that is measured on batches of one size.
-    fn contestants<'a>(&self, rays: usize, pools: &'a [ThreadPool], peers: Option<&'a Peers>) -> Vec<Contestant<'a>> {
+    fn batches<'a>(&self, rays: usize, pools: &'a [ThreadPool], peers: Option<&'a Peers>) -> Vec<Contestant<'a>> {
         let backends = self.backends(rays);
         let strategies = self.strategies();
         let mut contestants = Vec::new();

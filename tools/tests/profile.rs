@@ -89,13 +89,83 @@ fn limits_and_ratios_are_rows_of_the_same_list() {
 }
 
 #[test]
+fn calls_of_few_rays_are_measured_on_one_thread_with_the_fastest_backend() {
+    let strategies = ["equi-angular", "product-3"];
+    let rows = rows(&[
+        "--quick",
+        "--rays",
+        "64",
+        "--threads",
+        "2",
+        "--rounds",
+        "1",
+        "--strategy",
+        "equi-angular",
+        "--strategy",
+        "product-3",
+    ]);
+    let calls: Vec<&Value> = rows.iter().filter(|row| !row["ns_per_call"].is_null()).collect();
+    let measured =
+        |row: &&Value| (row["strategy"].to_string(), row["stage"].to_string(), row["rays"].as_u64().unwrap());
+    let expected = strategies.iter().flat_map(|strategy| {
+        let of = |stage: &str, rays| (format!("\"{strategy}\""), format!("\"{stage}\""), rays);
+        [of("one", 1)].into_iter().chain([1, 8, 33, 64, 1000].map(|rays| of("call", rays)))
+    });
+    assert_eq!(calls.iter().map(measured).collect::<Vec<_>>(), expected.collect::<Vec<_>>());
+    let fastest = Backend::available().next().unwrap().name();
+    for row in calls {
+        assert_eq!(
+            (&row["threads"], &row["backend"], &row["samples_per_ray"]),
+            (&1.into(), &fastest.into(), &1.into())
+        );
+        let (call, sample) = (row["ns_per_call"].as_f64().unwrap(), row["ns_per_sample"].as_f64().unwrap());
+        let rays = row["rays"].as_f64().unwrap();
+        assert!(sample > 0.0 && (call / (sample * rays) - 1.0).abs() < 1e-9, "{row}");
+    }
+}
+
+#[test]
+fn many_variates_of_few_rays_are_measured_unless_it_is_to_be_quick() {
+    let many = |options: &[&str]| {
+        let all = ["--rays", "64", "--threads", "1", "--threads", "2", "--rounds", "1"];
+        let mut rows = rows(&[&all[..], options].concat());
+        rows.retain(|row| row["samples_per_ray"].as_u64().unwrap() > 8);
+        rows
+    };
+    let measured = many(&["--strategy", "product-9"]);
+    let shape = |row: &Value| ["threads", "rays", "samples_per_ray"].map(|key| row[key].as_u64().unwrap());
+    let shapes = [[1, 1, 4_194_304], [1, 131_072, 32], [2, 1, 4_194_304], [2, 131_072, 32]];
+    assert_eq!(measured.iter().map(shape).collect::<Vec<_>>(), shapes);
+    for row in &measured {
+        assert_eq!((&row["strategy"], &row["stage"]), (&"product-9".into(), &"total".into()), "{row}");
+        assert!(is_positive(&row["ns_per_sample"]), "{row}");
+    }
+    assert!(many(&["--strategy", "product-9", "--quick"]).is_empty());
+    assert!(many(&["--strategy", "product-5"]).is_empty());
+}
+
+#[test]
 fn a_table_fits_a_terminal() {
-    let output = profile(&["--rays", "64", "--rounds", "1", "--strategy", "taylor-transmittance"]);
+    let strategies = ["--strategy", "taylor-transmittance", "--strategy", "product-9"];
+    let output = profile(&[&["--rays", "64", "--rounds", "1"], &strategies[..]].concat());
     let table = String::from_utf8(output.stdout).unwrap();
     assert!(table.lines().all(|line| line.chars().count() <= 100), "{table}");
-    for title in ["limits of arithmetic", "limits of memory", "time of a sample", "stages", "times as fast as portable"]
-    {
-        assert!(table.contains(title), "{title}: {table}");
+    for title in [
+        "limits of arithmetic",
+        "limits of memory",
+        "time of a sample",
+        "stages",
+        "time of a call",
+        "few rays, many variates",
+        "times as fast as portable",
+    ] {
+        // A title, a table of a head and a row at least, a legend.
+        let lines: Vec<&str> = table.lines().skip_while(|line| !line.starts_with(title)).collect();
+        let end = lines.iter().position(|line| line.is_empty()).unwrap_or(0);
+        assert!(
+            end >= 4 && lines[end - 1].split_whitespace().any(|word| word.chars().all(char::is_alphabetic)),
+            "{title}: {table}"
+        );
     }
 }
 

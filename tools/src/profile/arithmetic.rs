@@ -1,6 +1,6 @@
 //! How fast the cores are at single operations, and what a strategy needs of them.
 
-use super::clock::nanoseconds;
+use super::clock::{nanoseconds, warm_up};
 use super::subject::Subject;
 use airlight::{Backend, Limit, Operations, Sampler, Strategy};
 use airlight_tools::workload::{Wanted, Workload};
@@ -37,13 +37,20 @@ impl Strain<'_> {
     }
 
     /// The time of one operation of one lane \[ns\].
-    pub(super) fn time(&self) -> f64 {
+    pub(super) fn time(&self) -> Result<f64> {
         let with = |chains| {
             let strain = |_: rayon::BroadcastContext<'_>| black_box(self.backend.strain(self.limit, chains, STEPS));
-            let (elapsed, done) = nanoseconds(self.pool, || rayon::broadcast(strain).into_iter().sum::<usize>());
-            elapsed / done as f64
+            let all = || rayon::broadcast(strain).into_iter().sum::<usize>();
+            self.pool.install(|| -> Result<f64> {
+                warm_up(|| {
+                    black_box(all());
+                    Ok(())
+                })?;
+                let (elapsed, done) = nanoseconds(all);
+                Ok(elapsed / done as f64)
+            })
         };
-        CHAINS.map(with).into_iter().fold(f64::INFINITY, f64::min)
+        CHAINS.into_iter().map(with).try_fold(f64::INFINITY, |least, time| Ok(least.min(time?)))
     }
 }
 

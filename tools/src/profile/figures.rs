@@ -22,6 +22,8 @@ pub(crate) struct Row {
     pub(crate) subject: Subject,
     pub(crate) ns_per_sample: Option<f64>,
     pub(crate) msamples_per_s: Option<f64>,
+    /// The time of a whole call, of those of few rays.
+    ns_per_call: Option<f64>,
     /// What the time is compared with; the ratio stands instead of the time.
     against: Option<&'static str>,
     pub(crate) ratio: Option<f64>,
@@ -43,6 +45,7 @@ impl Row {
             subject,
             ns_per_sample: Some(median),
             msamples_per_s: Some(1e3 / median),
+            ns_per_call: subject.rays.filter(|_| subject.is_call()).map(|rays| median * rays as f64),
             against: None,
             ratio: None,
             min,
@@ -59,6 +62,7 @@ impl Row {
             subject,
             ns_per_sample: None,
             msamples_per_s: None,
+            ns_per_call: None,
             against: Some(against),
             ratio: Some(median),
             min,

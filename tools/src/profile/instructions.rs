@@ -73,7 +73,8 @@ pub(super) fn sample(strategies: &[Strategy], backends: &[Backend], batches: usi
         for &backend in backends {
             let work = Work::Sample { strategy, backend, per_ray: 1, wanted: Wanted::Densities };
             let contestant = Contestant { work, samples: RAYS, pool: &pool };
-            (0..batches).try_for_each(|_| contestant.run(&mut workload))?;
+            let mut task = contestant.task(&mut workload);
+            (0..batches).try_for_each(|_| task())?;
         }
     }
     Ok(())

@@ -1,6 +1,6 @@
 //! Kernels of others, out of a shared library with the functions `peer_*` on a `PeerBatch`.
 
-use airlight::Strategy;
+use airlight::{Samples, Strategy};
 use airlight_tools::workload::{Call, EMITTER, MEDIUM};
 use anyhow::{Context, Result};
 use libloading::Library;
@@ -89,13 +89,13 @@ impl Peers {
     }
 
     /// Draws one sample for every ray.
-    pub(super) fn sample(&self, peer: Peer, call: Call<'_>) {
+    pub(super) fn sample(&self, peer: Peer, call: &mut Call<'_>) {
         let [[ox, oy, oz], [dx, dy, dz]] = [call.rays.origin, call.rays.direction];
         let inputs = [ox, oy, oz, dx, dy, dz, call.rays.t_max, call.u];
         let [position, normal] = EMITTER.map(|v| v.to_array());
         let [mu_a, mu_s, _] = MEDIUM;
         let parameters: Vec<f32> = [position, normal].concat().into_iter().chain([mu_a + mu_s]).collect();
-        let (t, pdf) = (call.samples.t, call.samples.pdf);
+        let Samples { t, pdf, .. } = &mut call.samples;
         let n = ox.len();
         assert!(inputs.iter().all(|column| column.len() == n) && t.len() == n && pdf.len() == n);
         let batch = Batch {

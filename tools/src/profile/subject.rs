@@ -4,6 +4,10 @@ use serde::Serialize;
 
 /// The part of a time: all of a kernel that writes `t` and `pdf`.
 pub(crate) const TOTAL: &str = "total";
+/// That of a call of few rays, one of many calls.
+pub(super) const CALL: &str = "call";
+/// The same of `sample_one`, which writes weights and `r` as well.
+pub(super) const ONE: &str = "one";
 
 /// The names of the fields are keys of the JSON, which others read.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
@@ -18,6 +22,14 @@ pub(crate) struct Subject {
     /// Rays of a batch; none where there is no batch.
     pub(crate) rays: Option<usize>,
     pub(crate) samples_per_ray: usize,
-    /// A part of the kernel, or [`TOTAL`], or `with-weight`, where weights and `r` are written as well.
+    /// A part of the kernel, or [`TOTAL`], or `with-weight`, where weights and `r` are written as well; or [`CALL`], or
+    /// [`ONE`].
     pub(crate) stage: Option<&'static str>,
+}
+
+impl Subject {
+    /// Whether it is a call of few rays.
+    pub(super) fn is_call(&self) -> bool {
+        matches!(self.stage, Some(CALL | ONE))
+    }
 }

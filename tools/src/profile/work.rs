@@ -1,17 +1,19 @@
 //! What is measured on a batch: a kernel as a whole, a part of its road, bare columns, a peer.
 
-use super::clock::nanoseconds;
+use super::clock::{nanoseconds, warm_up};
 use super::peers::{Peer, Peers};
 use super::streams::Stream;
-use super::subject::{Subject, TOTAL};
+use super::subject::{CALL, ONE, Subject, TOTAL};
 use airlight::{Backend, Sampler, Stage, Strategy};
-use airlight_tools::workload::{Wanted, Workload};
+use airlight_tools::workload::{Wanted, Workload, emitter, medium};
 use anyhow::Result;
 use rayon::ThreadPool;
 use std::hint::black_box;
 
-/// Samples that a measurement takes at least.
-const LEAST: usize = 1 << 16;
+/// Samples that a measurement of batches takes at least: so many that the clock resolves their time.
+pub(super) const LEAST: usize = 1 << 16;
+/// Calls that a measurement of calls takes at most.
+const CALLS: usize = 1 << 12;
 
 /// Something that is done to a batch.
 #[derive(Clone, Copy, Debug)]
@@ -24,6 +26,10 @@ pub(super) enum Work<'a> {
     Stream(Stream),
     /// A kernel of others.
     Peer(&'a Peers, Peer),
+    /// Calls of so few rays, one after the other, each of the next rays.
+    Calls { strategy: Strategy, backend: Backend },
+    /// The same of [`Sampler::sample_one`].
+    OneByOne { strategy: Strategy, backend: Backend },
 }
 
 /// Work of the threads of a pool on so many samples.
@@ -66,33 +72,116 @@ impl Contestant<'_> {
             }
             Work::Stream(stream) => Subject { limit: Some(stream.name()), ..subject },
             Work::Peer(_, peer) => Subject { peer: Some(peer.name()), stage: Some(TOTAL), ..subject },
+            Work::Calls { strategy, backend } => of(strategy, backend, CALL),
+            Work::OneByOne { strategy, backend } => of(strategy, backend, ONE),
         }
     }
 
-    /// Its time for one sample \[ns\].
-    pub(super) fn time(&self, workload: &mut Workload) -> Result<f64> {
-        let times = LEAST.div_ceil(self.samples);
-        let (elapsed, done) = nanoseconds(self.pool, || (0..times).try_for_each(|_| self.run(workload)));
-        done?;
-        Ok(elapsed / (times * self.samples) as f64)
+    /// Samples that a measurement takes.
+    pub(super) fn taken(&self) -> usize {
+        self.times() * self.at_once()
     }
 
-    /// Does it once, on the caller's thread or its pool.
-    pub(super) fn run(&self, workload: &mut Workload) -> Result<()> {
+    /// Its time for one sample \[ns\], on threads that are awake.
+    pub(super) fn time(&self, workload: &mut Workload) -> Result<f64> {
+        let elapsed = self.pool.install(|| {
+            warm_up(self.shortened().task(workload))?;
+            let mut task = self.task(workload);
+            let (elapsed, done) = nanoseconds(|| (0..self.times()).try_for_each(|_| task()));
+            done.map(|()| elapsed)
+        })?;
+        Ok(elapsed / self.taken() as f64)
+    }
+
+    /// How often a measurement does its task.
+    fn times(&self) -> usize {
         match self.work {
+            Work::Calls { .. } | Work::OneByOne { .. } => 1,
+            _ => LEAST.div_ceil(self.samples),
+        }
+    }
+
+    /// Samples of its task.
+    fn at_once(&self) -> usize {
+        match self.work {
+            Work::Calls { .. } | Work::OneByOne { .. } => self.calls() * self.samples,
+            _ => self.samples,
+        }
+    }
+
+    /// Calls of its task, where that is several.
+    fn calls(&self) -> usize {
+        CALLS.min(LEAST / self.samples)
+    }
+
+    /// The same with no more samples than warm the threads up.
+    fn shortened(&self) -> Self {
+        let samples = self.samples.min(LEAST);
+        let work = match self.work {
             Work::Sample { strategy, backend, per_ray, wanted } => {
-                let mut call = workload.call(self.samples / per_ray, per_ray, wanted);
+                Work::Sample { strategy, backend, per_ray: per_ray.min(samples), wanted }
+            }
+            work => work,
+        };
+        Self { work, samples, ..*self }
+    }
+
+    /// What it does at once, on the caller's thread or its pool; what comes before it is done by then.
+    pub(super) fn task<'w>(&self, workload: &'w mut Workload) -> Box<dyn FnMut() -> Result<()> + Send + 'w>
+    where
+        Self: 'w,
+    {
+        let Self { work, samples, .. } = *self;
+        match work {
+            Work::Sample { strategy, backend, per_ray, wanted } => {
+                let mut call = workload.call(samples / per_ray, per_ray, wanted);
                 let sampler = Sampler::new(strategy).with_backend(backend);
-                black_box(call.sample(&sampler)?);
+                Box::new(move || {
+                    black_box(call.sample(&sampler)?);
+                    Ok(())
+                })
             }
             Work::UpTo { strategy, backend, stage } => {
-                let call = workload.call(self.samples, 1, Wanted::Densities);
+                let call = workload.call(samples, 1, Wanted::Densities);
                 let sampler = Sampler::new(strategy).with_backend(backend);
-                sampler.up_to(stage, &call.rays, &call.emitters, &call.media, call.u)?;
+                Box::new(move || Ok(sampler.up_to(stage, &call.rays, &call.emitters, &call.media, call.u)?))
             }
-            Work::Stream(stream) => stream.run(&mut workload.call(self.samples, 1, Wanted::Densities)),
-            Work::Peer(peers, peer) => peers.sample(peer, workload.call(self.samples, 1, Wanted::Densities)),
+            Work::Stream(stream) => {
+                let mut call = workload.call(samples, 1, Wanted::Densities);
+                Box::new(move || {
+                    stream.run(&mut call);
+                    Ok(())
+                })
+            }
+            Work::Peer(peers, peer) => {
+                let mut call = workload.call(samples, 1, Wanted::Densities);
+                Box::new(move || {
+                    peers.sample(peer, &mut call);
+                    Ok(())
+                })
+            }
+            Work::Calls { strategy, backend } => {
+                let calls = self.calls();
+                let mut all = workload.call(calls * samples, 1, Wanted::Densities);
+                let sampler = Sampler::new(strategy).with_backend(backend);
+                Box::new(move || {
+                    for call in 0..calls {
+                        black_box(all.part(call * samples, samples).sample(&sampler)?);
+                    }
+                    Ok(())
+                })
+            }
+            Work::OneByOne { strategy, backend } => {
+                let rays = workload.one_by_one(self.calls());
+                let (emitter, medium) = (emitter(), medium());
+                let sampler = Sampler::new(strategy).with_backend(backend);
+                Box::new(move || {
+                    for (ray, u) in &rays {
+                        black_box(sampler.sample_one(ray, &emitter, &medium, *u));
+                    }
+                    Ok(())
+                })
+            }
         }
-        Ok(())
     }
 }

@@ -45,8 +45,7 @@ fn name<S: serde::Serializer>(strategy: &Strategy, serializer: S) -> Result<S::O
 impl<'a> Findings<'a> {
     pub(super) fn new(measured: &'a Measured) -> Self {
         let backend = Backend::available().next().expect("the portable one is on every machine");
-        let sizes =
-            measured.profile.0.iter().filter(|row| row.subject.strategy.is_some()).filter_map(|r| r.subject.rays);
+        let sizes = measured.profile.0.iter().filter(|row| is_whole(row)).filter_map(|row| row.subject.rays);
         let distance = |&rays: &usize| ((rays as f64 / BATCH).log2().abs() * 1e6) as u64;
         let batch = sizes.min_by_key(distance).unwrap_or(0);
         let mut findings = Self { measured, backend, batch, strategies: Vec::new() };
@@ -95,10 +94,13 @@ impl<'a> Findings<'a> {
 
     /// The times of all whole kernels with a sample per ray.
     pub(super) fn times(&self, threads: usize) -> impl Iterator<Item = &'a Row> {
-        self.measured.profile.0.iter().filter(move |row| {
-            let subject = &row.subject;
-            let whole = subject.stage == Some("total") && subject.samples_per_ray == 1 && row.ratio.is_none();
-            whole && subject.strategy.is_some() && subject.threads == threads
-        })
+        self.measured.profile.0.iter().filter(move |row| is_whole(row) && row.subject.threads == threads)
     }
+}
+
+/// Whether it is the time of a whole kernel with a sample per ray.
+fn is_whole(row: &Row) -> bool {
+    let subject = &row.subject;
+    let whole = subject.stage == Some("total") && subject.samples_per_ray == 1 && row.ratio.is_none();
+    whole && subject.strategy.is_some()
 }

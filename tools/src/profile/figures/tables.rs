@@ -1,6 +1,7 @@
 //! The figures as tables.
 
-use super::super::subject::{Subject, TOTAL};
+use super::super::SHARED;
+use super::super::subject::{CALL, ONE, Subject, TOTAL};
 use super::{Figures, Row};
 use crate::table;
 use comfy_table::Table;
@@ -12,25 +13,45 @@ impl fmt::Display for Figures {
         let all_threads = distinct(rows.iter().map(|row| Some(row.subject.threads)));
         for &threads in &all_threads {
             let of_these: Vec<&Row> = rows.iter().filter(|row| row.subject.threads == threads).collect();
-            let counted = format!("{threads} {}", if threads == 1 { "thread" } else { "threads" });
-            section(f, &format!("limits of arithmetic, {counted} [1e9/s]"), &limits(&of_these))?;
-            section(f, &format!("limits of memory by rays of a batch, {counted} [GB/s]"), &memory(&of_these))?;
-            section(f, &format!("time of a sample by rays of a batch, {counted} [ns]"), &times(&of_these))?;
+            let counted = counted(threads);
+            section(f, &format!("limits of arithmetic, {counted} [1e9/s]"), &limits(&of_these), OF_LIMITS)?;
+            let title = format!("limits of memory by rays of a batch, {counted} [GB/s]");
+            section(f, &title, &memory(&of_these), OF_MEMORY)?;
+            let title = format!("time of a sample by rays of a batch, {counted} [ns]");
+            section(f, &title, &times(&of_these), OF_TIMES)?;
         }
         let times = |row: &&Row| row.ratio.is_none() && row.subject.strategy.is_some();
         let staged: Vec<&Row> = rows.iter().filter(times).collect();
         let largest = staged.iter().filter(|row| is_stage(&row.subject)).filter_map(|row| row.subject.rays).max();
         if let Some(rays) = largest {
-            section(f, &format!("stages of a sample, 1 thread, batches of {rays} [ns]"), &stages(&staged, rays))?;
+            let title = format!("stages of a sample, 1 thread, batches of {rays} [ns]");
+            section(f, &title, &stages(&staged, rays), OF_STAGES)?;
         }
+        let fastest = rows.iter().find(|row| row.ns_per_call.is_some()).and_then(|row| row.subject.backend);
+        let title = format!("time of a call by its rays, 1 thread, {} [ns]", fastest.unwrap_or("-"));
+        section(f, &title, &calls(&staged), OF_CALLS)?;
+        section(f, "few rays, many variates: time of a sample [ns]", &many_variates(&staged), OF_MANY_VARIATES)?;
         self.comparisons(f)?;
-        writeln!(f, "medians; +- %: how far the farthest round of a row is from its median")?;
-        writeln!(f, "limit: what the kernel is nearest to, and the share of its time that this alone would take")?;
-        writeln!(
-            f,
-            "stages: differences of runs up to their ends, which write to memory what the whole has in registers"
-        )
+        writeln!(f, "all figures are medians over the rounds")
     }
+}
+
+const OF_LIMITS: &str = "operations of one lane, by all threads";
+const OF_MEMORY: &str = "read: the columns that a sample reads; write: t and pdf; stream: both";
+const OF_TIMES: &str = "t and pdf; +- %: how far the farthest round of a row is from its median; Msamples/s: at best
+limit: what the kernel is nearest to, and the share of its time that this alone would take";
+const OF_STAGES: &str =
+    "stages: differences of runs up to their ends; these write to memory what the whole has in registers
+total: t and pdf; weight: weight and r as well; 8 per ray: where 8 samples share a set-up";
+const OF_CALLS: &str = "a number: sample, of t and pdf, with so many rays; one: sample_one, of weight and r as well";
+const OF_MANY_VARIATES: &str = "rays x variates of each: t and pdf of one call";
+const OF_PORTABLE: &str = "time with the portable backend over that with this one";
+const OF_THREADS: &str = "time with one thread over that with several, by samples of a batch";
+const OF_COSTS: &str = "time over that of equi-angular with one sample per ray, by samples of a batch";
+const OF_OTHERS: &str = "time of what stands after the colon over that of what stands before, by samples of a batch";
+
+fn counted(threads: usize) -> String {
+    format!("{threads} {}", if threads == 1 { "thread" } else { "threads" })
 }
 
 impl Figures {
@@ -47,7 +68,8 @@ impl Figures {
         let sizes = distinct(to_portable.iter().map(|row| row.subject.rays));
         if let Some(rays) = sizes.into_iter().max_by_key(|&rays| (backends(rays), rays)) {
             let rows: Vec<&Row> = to_portable.iter().copied().filter(|row| row.subject.rays == Some(rays)).collect();
-            section(f, &format!("times as fast as portable, 1 thread, batches of {rays}"), &by_backend(&rows))?;
+            let title = format!("times as fast as portable, 1 thread, batches of {rays}");
+            section(f, &title, &by_backend(&rows), OF_PORTABLE)?;
         }
         let of_threads = against("one thread").filter(of_fastest).filter(|row| row.subject.threads > 1);
         section(
@@ -56,6 +78,7 @@ impl Figures {
             &ratios(&of_threads.collect::<Vec<_>>(), |subject| {
                 format!("{}, {} threads", subject.strategy.unwrap_or("-"), subject.threads)
             }),
+            OF_THREADS,
         )?;
         let costs = against("equi-angular").filter(of_fastest).filter(alone);
         section(
@@ -68,6 +91,7 @@ impl Figures {
                     several => format!("{strategy}, {several} per ray"),
                 }
             }),
+            OF_COSTS,
         )?;
         let peers = against("peer").chain(against("taylor-transmittance")).filter(of_fastest).filter(alone);
         section(
@@ -80,20 +104,21 @@ impl Figures {
                     None => format!("{strategy} : taylor-transmittance"),
                 }
             }),
+            OF_OTHERS,
         )
     }
 }
 
-/// A table with its title, if there is anything in it.
-fn section(f: &mut fmt::Formatter<'_>, title: &str, table: &Table) -> fmt::Result {
+/// A table with its title and a legend, if there is anything in it.
+fn section(f: &mut fmt::Formatter<'_>, title: &str, table: &Table, legend: &str) -> fmt::Result {
     if table.row_count() == 0 {
         return Ok(());
     }
-    writeln!(f, "{title}\n{}\n", table::text(table))
+    writeln!(f, "{title}\n{}\n{legend}\n", table::text(table))
 }
 
 fn is_stage(subject: &Subject) -> bool {
-    !matches!(subject.stage, None | Some(TOTAL | "with-weight"))
+    !matches!(subject.stage, None | Some(TOTAL | "with-weight")) && !subject.is_call()
 }
 
 /// Those that there are, in the order in which they come.
@@ -199,6 +224,43 @@ fn stages(rows: &[&Row], rays: usize) -> Table {
         let together = of_kernel().find(together).and_then(|row| row.ns_per_sample);
         let names = [wanted.0, wanted.1].map(str::to_owned);
         table.add_row(names.into_iter().chain(stages.map(|stage| cell(time(stage)))).chain([cell(together)]));
+    }
+    table
+}
+
+/// Whole calls of few rays.
+fn calls(rows: &[&Row]) -> Table {
+    let calls = || rows.iter().filter(|row| row.ns_per_call.is_some());
+    let sizes = distinct(calls().filter(|row| row.subject.stage == Some(CALL)).map(|row| row.subject.rays));
+    let mut table = by_size(&["strategy", "one"], &sizes, &[]);
+    for strategy in distinct(calls().map(|row| row.subject.strategy)) {
+        let time = |stage, rays| {
+            let of = |row: &&&Row| {
+                let Subject { strategy: of, stage: part, rays: with, .. } = row.subject;
+                (of, part, with) == (Some(strategy), Some(stage), Some(rays))
+            };
+            cell(calls().find(of).and_then(|row| row.ns_per_call))
+        };
+        let times = sizes.iter().map(|&rays| time(CALL, rays));
+        table.add_row([strategy.to_owned(), time(ONE, 1)].into_iter().chain(times));
+    }
+    table
+}
+
+/// Samples of which so many are of one ray that these share more than its set-up.
+fn many_variates(rows: &[&Row]) -> Table {
+    let many = || rows.iter().filter(|row| row.subject.samples_per_ray > SHARED);
+    let all_threads = distinct(many().map(|row| Some(row.subject.threads)));
+    let heads = ["strategy", "rays x variates"].map(str::to_owned).into_iter();
+    let mut table = table::new(heads.chain(all_threads.iter().map(|&threads| counted(threads))));
+    let shape = |row: &Row| Some((row.subject.strategy?, row.subject.rays?, row.subject.samples_per_ray));
+    for (strategy, rays, per_ray) in distinct(many().map(|row| shape(row))) {
+        let time = |&threads: &usize| {
+            let of = |row: &&&Row| shape(row) == Some((strategy, rays, per_ray)) && row.subject.threads == threads;
+            cell(many().find(of).and_then(|row| row.ns_per_sample))
+        };
+        let names = [strategy.to_owned(), format!("{rays} x {per_ray}")];
+        table.add_row(names.into_iter().chain(all_threads.iter().map(time)));
     }
     table
 }
