@@ -58,14 +58,14 @@ impl Check {
     /// What `strategy` made of the subset; none if that is empty.
     pub(crate) fn compare(&self, strategy: Strategy, strata: &Strata) -> Option<Comparison> {
         let count = self.rays.len() as f64;
-        // The sum of no numbers is -0.
-        let quadrature = 0.0 + self.scenes.iter().map(|(_, radiance)| radiance).sum::<f64>() / count;
+        let quadrature = self.scenes.iter().map(|(_, radiance)| radiance).sum::<f64>() / count;
         let of_mean = |(&i, (scene, radiance)): (&usize, &(Scene, f64))| {
             // By quadrature: a weight with a heavy tail hides its variance from its own samples.
             Some(scene.relative_variance(strategy)? * radiance * radiance / strata.samples(i))
         };
         // Collected before it is summed: the order must not depend on the threads.
         let variances: Vec<f64> = self.rays.par_iter().zip(&self.scenes).filter_map(of_mean).collect();
+        // The sum of no numbers is -0.
         let stderr = (0.0 + variances.iter().sum::<f64>()).sqrt() / count;
         Some(Comparison { estimate: strata.of(&self.rays).mean?, stderr, quadrature })
     }

@@ -185,3 +185,21 @@ impl Contestant<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_warm_up_draws_some_samples_and_not_too_many() {
+        let pool = airlight_tools::threads::pool(1).unwrap();
+        let (strategy, backend, wanted) = (Strategy::Product9, Backend::detect(), Wanted::Densities);
+        for (samples, per_ray) in [(64, 1), (1 << 20, 1), (1 << 20, 8), (1 << 22, 1 << 22)] {
+            let work = Work::Sample { strategy, backend, per_ray, wanted };
+            let warm_up = Contestant { work, samples, pool: &pool }.shortened();
+            let Subject { rays, samples_per_ray, .. } = warm_up.subject();
+            assert_eq!(rays.map(|rays| rays * samples_per_ray), Some(samples.min(LEAST)), "{samples}, {per_ray}");
+            assert!(rays > Some(0));
+        }
+    }
+}
