@@ -23,19 +23,20 @@ pub(crate) struct Lobe<I: Isa> {
     pub(crate) a2: I::V,
     pub(crate) b2: I::V,
     pub(crate) b_over_a: I::V,
-    /// `(1 - g^2)/(4 pi)`.
+    /// `(1 - g^2)/(4 pi)`, 0 where `|g|` is 1.
     pub(crate) height: I::V,
 }
 
-/// Of this `|g|` is the lobe for all that is larger: at 1 the phase function is none.
-const MOST_FORWARD: f32 = 1.0 - 1.0 / 4096.0;
+/// The f32 next below 1: the lobe of `|g| = 1` has this shape, as a phase function without width is no density.
+const MOST_FORWARD: f32 = 1.0 - f32::EPSILON / 2.0;
 
 impl<I: Isa> Lobe<I> {
     #[inline(always)]
     fn new(isa: I, g: I::V) -> Self {
+        let one = isa.splat(1.0);
+        let height = (one + g) * (one - g) * isa.splat(0.25 * core::f32::consts::FRAC_1_PI);
         let g = g.max(isa.splat(-MOST_FORWARD)).min(isa.splat(MOST_FORWARD));
-        let (a, b) = (isa.splat(1.0) + g, isa.splat(1.0) - g);
-        let height = a * b * isa.splat(0.25 * core::f32::consts::FRAC_1_PI);
+        let (a, b) = (one + g, one - g);
         Self { a2: a * a, b2: b * b, b_over_a: b / a, height }
     }
 }

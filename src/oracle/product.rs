@@ -25,8 +25,8 @@ mod chosen {
     pub(super) const LEAST_IN_THE_DARK: f64 = 0.0625;
     pub(super) const LEAST_AT_END: f64 = 0.25;
     pub(super) const LEAST: f64 = 0.5;
-    /// The largest `|g|` that the density is made for: at 1 there would be nothing between the peaks.
-    pub(super) const LARGEST_G: f64 = 1.0 - 1.0 / 4096.0;
+    /// The largest `|g|` that the density is made for, the f32 next below 1: at 1 the phase function has no width.
+    pub(super) const LARGEST_G: f64 = 1.0 - f32::EPSILON as f64 / 2.0;
 }
 
 /// The density at a knot, and its integral up to there.

@@ -81,7 +81,8 @@ impl Family {
             Self::ShortIntervals => Case::short(&mut draw),
             Self::Cosine => Case::cosine(&mut draw),
             Self::Phase => {
-                let g = draw.pick(&[0.0, 1e-8, -1e-8, 0.6, -0.6, 0.9, -0.9, 0.99, -0.99, 0.999, -0.999, 1.0, -1.0]);
+                let size = draw.pick(&[0.0, 1e-8, 0.6, 0.9, 0.99, 0.999, 0.9999, 0.99999, 1.0 - EPS, 1.0]);
+                let g = size * draw.pick(&[1.0, -1.0]);
                 Case { g, ..Case::generic(&mut draw) }
             }
             Self::Medium => Case::medium(&mut draw),
@@ -170,7 +171,12 @@ impl Case {
     fn any(draw: &mut Draw) -> Self {
         let mu_t = draw.log_between(1e-2, 1e1);
         let mu_s = mu_t * draw.uniform();
-        Self { mu_a: mu_t - mu_s, mu_s, g: draw.between(-0.95, 0.95), ..Self::generic(draw) }
+        // One in eight has a peak, of any width down to none.
+        let g = match draw.below(8) {
+            0 => draw.pick(&[1.0, -1.0]) * (1.0 - draw.pick(&[0.0, 1.0, 1.0, 1.0]) * draw.log_between(EPS, 0.05)),
+            _ => draw.between(-0.95, 0.95),
+        };
+        Self { mu_a: mu_t - mu_s, mu_s, g, ..Self::generic(draw) }
     }
 
     /// The emitter at distance `h` from the ray's line and `t_h` along it: exactly so along an axis, else rounded.
