@@ -4,6 +4,7 @@ use crate::families::{Case, Columns, Family};
 use airlight::oracle::Scene;
 use airlight::{Sampler, Samples, Strategy};
 use rayon::prelude::*;
+use std::f64::consts::FRAC_PI_2;
 
 /// Rays that are sampled in one call.
 const BATCH: usize = 1 << 14;
@@ -400,10 +401,13 @@ fn beyond([low, high]: [f64; 2], x: f64) -> f64 {
 }
 
 /// Whether the lit interval is so short that it may as well count as empty, as [`airlight::Counts::empty`] says.
-fn beyond_f32(scene: &Scene) -> bool {
+#[must_use]
+pub fn beyond_f32(scene: &Scene) -> bool {
     scene.lit().is_none_or(|(a, b)| {
         let angle = scene.angle(a, b);
-        let light = angle * (scene.cosine(a) + scene.cosine(b));
+        // Beyond a right angle what is bright may lie between the ends.
+        let bright = if angle > FRAC_PI_2 { scene.alpha().hypot(scene.beta()) } else { 0.0 };
+        let light = angle * (scene.cosine(a) + scene.cosine(b)).max(bright);
         b - a < 1.01e-18 || angle < 1.01e-30 || b - a < 1.01e-36 * scene.r(a) * scene.r(b) || light < 1.01e-25
     })
 }

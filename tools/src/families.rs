@@ -24,7 +24,7 @@ pub enum Family {
     ShortIntervals,
     /// Normals along and across the ray, ends at and next to the dark side, emitters that show their back.
     Cosine,
-    /// `g` from -1 to 1, ends included.
+    /// `g` from -1 to 1, ends included; rays as in the generic family, next to emitters and without end.
     Phase,
     /// `mu_t` from 0 to 1e4 per m, and media that are none.
     Medium,
@@ -83,7 +83,12 @@ impl Family {
             Self::Phase => {
                 let size = draw.pick(&[0.0, 1e-8, 0.6, 0.9, 0.99, 0.999, 0.9999, 0.99999, 1.0 - EPS, 1.0]);
                 let g = size * draw.pick(&[1.0, -1.0]);
-                Case { g, ..Case::generic(&mut draw) }
+                let case = match draw.below(4) {
+                    0 => Case::near_emitter(&mut draw),
+                    1 => Case::infinite(&mut draw),
+                    _ => Case::generic(&mut draw),
+                };
+                Case { g, ..case }
             }
             Self::Medium => Case::medium(&mut draw),
             Self::Ray => Case::ray(&mut draw),
@@ -143,12 +148,12 @@ impl Case {
         Ok(Scene::new(&ray, &emitter, &Medium::new(self.mu_a, self.mu_s, self.g)?))
     }
 
-    /// Whether a coordinate is beyond what is promised to be told from invalid, `mu_s` next to nothing, or `mu_t` the
-    /// inverse of no length that is resolved.
+    /// Whether a coordinate is beyond what is promised to be told from invalid, `mu_s` so small that its products leave f32,
+    /// or `mu_t` the inverse of no length that is resolved.
     #[must_use]
     pub fn is_extreme(&self) -> bool {
         let farthest = self.origin.abs().max_element().max(self.position.abs().max_element());
-        farthest > FARTHEST || (self.mu_s > 0.0 && self.mu_s < 1e-30) || self.mu_a + self.mu_s > 1e12
+        farthest > FARTHEST || (self.mu_s > 0.0 && self.mu_s < 1e-30) || self.mu_a + self.mu_s > FARTHEST
     }
 
     fn generic(draw: &mut Draw) -> Self {
@@ -171,12 +176,7 @@ impl Case {
     fn any(draw: &mut Draw) -> Self {
         let mu_t = draw.log_between(1e-2, 1e1);
         let mu_s = mu_t * draw.uniform();
-        // One in eight has a peak, of any width down to none.
-        let g = match draw.below(8) {
-            0 => draw.pick(&[1.0, -1.0]) * (1.0 - draw.pick(&[0.0, 1.0, 1.0, 1.0]) * draw.log_between(EPS, 0.05)),
-            _ => draw.between(-0.95, 0.95),
-        };
-        Self { mu_a: mu_t - mu_s, mu_s, g, ..Self::generic(draw) }
+        Self { mu_a: mu_t - mu_s, mu_s, g: draw.between(-0.95, 0.95), ..Self::generic(draw) }
     }
 
     /// The emitter at distance `h` from the ray's line and `t_h` along it: exactly so along an axis, else rounded.
