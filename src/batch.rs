@@ -65,6 +65,10 @@ pub struct Samples<'a> {
     pub pdf: &'a mut [f32],
     /// `mu_s T rho N / (r^2 pdf)`: the one-sample estimate of the ray's single-scattered radiance per unit of the
     /// emitter's intensity \[1/m^2\], with `1/r^2` cancelled analytically and `T` counted from `t_min`.
+    ///
+    /// `T` has the whole leg from the sample to the emitter in the medium. Where a part of it, `outside` \[m\], is not, as
+    /// with a lamp outside the fog, `weight * exp(mu_t * outside)` is the unbiased estimate, as long as the weight is not 0:
+    /// it is where the transmittance is below f32's range, at an optical depth of 87.
     pub weight: Option<&'a mut [f32]>,
     /// Distances from the samples to the emitters \[m\], exact also where `t` alone cannot resolve them.
     pub r: Option<&'a mut [f32]>,

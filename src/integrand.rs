@@ -74,7 +74,7 @@ fn phase<I: Isa>(isa: I, geometry: &Geometry<I>, g: I::V, point: &Point<I>) -> I
     let long = r + point.t_prime.abs();
     let one_plus_sin = I::V::select(forward, long * long, h * h) / (r * long);
     let away = c(1.0) - size;
-    // The floor matters for |g| = 1 alone, where rho is 0 but at its peak.
+    // The floor matters for |g| = 1 alone, where rho is 0 and h^2/r^2 may leave f32.
     let d = away.mul_add(away, (size + size) * one_plus_sin).max(c(1e-24));
     (away * (c(1.0) + size)) * c(0.25 * core::f32::consts::FRAC_1_PI) / (d * d.sqrt())
 }

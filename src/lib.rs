@@ -60,7 +60,8 @@
 //! # Reproducibility
 //!
 //! Equal inputs give equal bits, whatever the number of threads, the length of the batch or the place in it. Between
-//! machines this holds where the instruction sets round alike: with fused multiply-add, or without.
+//! machines this holds where the instruction sets round alike: with fused multiply-add, or without. All of it is said of
+//! the default [floating-point environment](Sampler#floating-point-environment), which flushes nothing to zero.
 
 mod batch;
 mod density;

@@ -8,8 +8,8 @@ use super::quadrature::gauss_legendre;
 
 /// The `m = mu_t h` from which on the polynomial of the transmittance stays as it is.
 ///
-/// There the published code trusts it up to less than 0.01 rad, so little is lost; but `m^6` and what is made of it
-/// would overflow an f32.
+/// There the published code trusts it up to less than 0.01 rad, so little is lost. It is part of the definition: the
+/// density is one for every `m`, and no quantity that the polynomial stands for is compared beyond.
 const LARGEST_M: f64 = 32.0;
 
 /// A density over the directions of an arc, up to its constant factor.

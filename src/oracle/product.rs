@@ -126,7 +126,7 @@ impl Product {
     }
 }
 
-/// `Y_c` \[m\], no shorter than any length.
+/// `Y_c` \[m\], no shorter than the shortest length that is resolved: part of the definition, as is that of `h`.
 fn scale(arc: &Arc, mu_t: f64, g: f64) -> f64 {
     let turn = arc.h * (1.0 - g) / (1.0 + g);
     let reach = chosen::START * half_angle(arc.h, arc.a) + chosen::PEAK * turn;

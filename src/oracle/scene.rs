@@ -329,9 +329,16 @@ mod tests {
 
     #[test]
     fn layers_of_any_width_are_seen() {
-        for (mu_t, h, g) in
-            [(100.0, 1.0, 0.99), (1e6, 1.0, -0.99), (1e-3, 1e-4, 0.99), (1e3, 1e-3, 0.0), (1e4, 1e4, 0.9)]
-        {
+        const NEAREST_1: f32 = 1.0f32.next_down();
+        for (mu_t, h, g) in [
+            (100.0, 1.0, 0.99),
+            (1e6, 1.0, -0.99),
+            (1e-3, 1e-4, 0.99),
+            (1e3, 1e-3, 0.0),
+            (1e4, 1e4, 0.9),
+            (1.0, 1.0, NEAREST_1),
+            (1e-3, 1e-3, -NEAREST_1),
+        ] {
             for t_h in [-5.0, 0.0, 0.01, 5.0] {
                 let scene = straight((0.0, f32::INFINITY), (t_h, h), None, (0.0, mu_t, g));
                 assert_close(scene.radiance(), radiance_over_distance(&scene), 1e-10);
