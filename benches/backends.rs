@@ -1,6 +1,6 @@
 //! What does each instruction set make of each strategy?
 //!
-//! One thread, batches that a core's cache holds; `avx2-single` and `scalar` are there to be compared with.
+//! One thread, batches that a core's cache holds; `scalar` is there to be compared with.
 
 use airlight::{Backend, Sampler, Strategy};
 use airlight_tools::threads;

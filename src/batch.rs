@@ -7,6 +7,10 @@ use crate::scene::{Emitter, Medium};
 use crate::simd::{Isa, Lanes, MOST_LANES};
 use core::ops::Range;
 
+mod pads;
+
+pub(crate) use pads::{Pad, Pads, first_values};
+
 /// A batch of rays as a structure of arrays; every column has the length of the batch and any alignment.
 ///
 /// The values mean what they mean in [`Ray::new`](crate::Ray::new). A ray whose values are out of range there is
@@ -66,9 +70,9 @@ pub struct Samples<'a> {
     /// `mu_s T rho N / (r^2 pdf)`: the one-sample estimate of the ray's single-scattered radiance per unit of the
     /// emitter's intensity \[1/m^2\], with `1/r^2` cancelled analytically and `T` counted from `t_min`.
     ///
-    /// `T` has the whole leg from the sample to the emitter in the medium. Where a part of it, `outside` \[m\], is not, as
-    /// with a lamp outside the fog, `weight * exp(mu_t * outside)` is the unbiased estimate, as long as the weight is not 0:
-    /// it is where the transmittance is below f32's range, at an optical depth of 87.
+    /// `T` takes the whole leg from the sample to the emitter to lie in the medium. If the length `outside` \[m\] of it does
+    /// not, as with a lamp outside the fog, `weight * exp(mu_t * outside)` is the unbiased estimate. A transmittance below
+    /// f32's range, at an optical depth above 87, makes the weight 0: there is nothing to correct then.
     pub weight: Option<&'a mut [f32]>,
     /// Distances from the samples to the emitters \[m\], exact also where `t` alone cannot resolve them.
     pub r: Option<&'a mut [f32]>,
@@ -110,15 +114,29 @@ pub(crate) struct Inputs<'a> {
     pub(crate) rays: Rays<'a>,
     pub(crate) emitters: Emitters<'a>,
     pub(crate) media: Media<'a>,
+    /// Empty if the task takes no numbers.
     pub(crate) given: &'a [f32],
-    /// How many of them each ray has.
+    /// How many of them each ray has; the same number of values is written for it.
     pub(crate) per_ray: usize,
+    order: Order,
+    /// The lanes that count, from the first to before the second; `None`: all lanes.
+    counted: Option<[usize; 2]>,
+}
+
+/// How the values of a lane group lie.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Order {
+    /// Those of a lane next to each other.
+    ByLane,
+    /// Those of a turn next to each other, one for each lane.
+    ByTurn,
 }
 
 impl<'a> Inputs<'a> {
     /// The inputs, if every column has the same length; nothing is given yet.
     pub(crate) fn new(rays: &Rays<'a>, emitters: &Emitters<'a>, media: &Media<'a>) -> Result<Self, Error> {
-        let inputs = Self { rays: *rays, emitters: *emitters, media: *media, given: &[], per_ray: 0 };
+        let (rays, emitters, media) = (*rays, *emitters, *media);
+        let inputs = Self { rays, emitters, media, given: &[], per_ray: 1, order: Order::ByTurn, counted: None };
         const O: [&str; 3] = ["rays.origin[0]", "rays.origin[1]", "rays.origin[2]"];
         const D: [&str; 3] = ["rays.direction[0]", "rays.direction[1]", "rays.direction[2]"];
         const P: [&str; 3] = ["emitters.position[0]", "emitters.position[1]", "emitters.position[2]"];
@@ -129,13 +147,13 @@ impl<'a> Inputs<'a> {
         }
         inputs.check("rays.t_min", rays.t_min)?;
         inputs.check("rays.t_max", rays.t_max)?;
-        if let Emitters::Each { position, normal } = emitters {
+        if let Emitters::Each { position, normal } = &emitters {
             for k in 0..3 {
                 inputs.check(P[k], position[k])?;
                 inputs.check(N[k], normal[k])?;
             }
         }
-        if let Media::Each { mu_a, mu_s, g } = media {
+        if let Media::Each { mu_a, mu_s, g } = &media {
             inputs.check("media.mu_a", mu_a)?;
             inputs.check("media.mu_s", mu_s)?;
             inputs.check("media.g", g)?;
@@ -146,7 +164,7 @@ impl<'a> Inputs<'a> {
     /// One ray.
     pub(crate) fn one(rays: Rays<'a>, emitter: Emitter, medium: Medium, given: &'a [f32]) -> Self {
         let (emitters, media) = (Emitters::One(emitter), Media::One(medium));
-        Self { rays, emitters, media, given, per_ray: 1 }
+        Self { rays, emitters, media, given, per_ray: 1, order: Order::ByTurn, counted: None }
     }
 
     /// The same with `given`, if its length is that of the batch or a multiple; `name` is what it is called.
@@ -154,7 +172,8 @@ impl<'a> Inputs<'a> {
         let (length, expected) = (given.len(), self.len());
         let per_ray = length.checked_div(expected).unwrap_or(1);
         if length == per_ray * expected && per_ray > 0 {
-            Ok(Self { given, per_ray, ..self })
+            let order = if per_ray == 1 { Order::ByTurn } else { Order::ByLane };
+            Ok(Self { given, per_ray, order, ..self })
         } else {
             Err(Error::Length { field: name, length, expected })
         }
@@ -176,10 +195,50 @@ impl<'a> Inputs<'a> {
         self.rays.origin[0].len()
     }
 
+    /// How many values are written for them.
+    pub(crate) fn values(&self) -> usize {
+        self.len() * self.per_ray
+    }
+
     /// The rays of `range` alone.
     pub(crate) fn slice(&self, range: Range<usize>) -> Self {
-        let given = &self.given[range.start * self.per_ray..range.end * self.per_ray];
+        let given = self.given.get(range.start * self.per_ray..range.end * self.per_ray).unwrap_or_default();
         Self { given, ..self.with_columns(|column| &column[range.clone()]) }
+    }
+
+    /// The rays from `start` on.
+    pub(crate) fn from(&self, start: usize) -> Self {
+        let given = self.given.get(start * self.per_ray..).unwrap_or_default();
+        Self { given, ..self.with_columns(|column| &column[start..]) }
+    }
+
+    /// The values of `range` alone, of one ray.
+    pub(crate) fn of_one_ray(&self, range: Range<usize>) -> Self {
+        let per_ray = range.len();
+        Self { given: self.given.get(range).unwrap_or_default(), per_ray, ..*self }
+    }
+
+    /// The same rays with other values, those of a turn next to each other.
+    pub(crate) fn by_turn(&self, given: &'a [f32], per_ray: usize) -> Self {
+        Self { given, per_ray, order: Order::ByTurn, ..*self }
+    }
+
+    /// The same with some lanes that count.
+    pub(crate) fn counting(self, lanes: Range<usize>) -> Self {
+        Self { counted: Some([lanes.start, lanes.end]), ..self }
+    }
+
+    /// Which ones of so many lanes count.
+    #[cfg_attr(optimized, inline(always))]
+    pub(crate) fn counted(&self, lanes: usize) -> Range<usize> {
+        let [start, end] = self.counted.unwrap_or([0, lanes]);
+        start..end.min(lanes)
+    }
+
+    /// Where the values of a turn of a lane group are.
+    #[cfg_attr(optimized, inline(always))]
+    pub(crate) fn turn(&self, group: usize, index: usize) -> Turn {
+        Turn { group, index, per_ray: self.per_ray, order: self.order }
     }
 
     /// The same with other columns of rays, emitters and media.
@@ -206,11 +265,13 @@ impl<'a> Inputs<'a> {
             },
             given: self.given,
             per_ray: self.per_ray,
+            order: self.order,
+            counted: self.counted,
         }
     }
 
     /// The rays in lane groups.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(crate) fn ray_groups<I: Isa>(&self) -> RayGroups<'a, I> {
         let count = self.len() / I::V::N;
         let [ox, oy, oz] = self.rays.origin;
@@ -235,13 +296,13 @@ pub(crate) struct RayGroups<'a, I: Isa> {
 
 impl<I: Isa> RayGroups<'_, I> {
     /// How many.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(crate) fn count(&self) -> usize {
         self.t_min.len()
     }
 
     /// The rays of one group.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(crate) fn lanes(&self, isa: I, index: usize) -> RayLanes<I> {
         RayLanes {
             origin: load(isa, &self.origin, index),
@@ -253,57 +314,20 @@ impl<I: Isa> RayGroups<'_, I> {
 }
 
 /// The first `count` groups of a column.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 fn cut<I: Isa>(column: &[f32], count: usize) -> &[I::Group] {
     &I::groups(column)[..count]
 }
 
 /// One group of each column.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 fn load<I: Isa>(isa: I, [x, y, z]: &[&[I::Group]; 3], index: usize) -> [I::V; 3] {
     [isa.load(&x[index]), isa.load(&y[index]), isa.load(&z[index])]
 }
 
-/// Of rays, emitters and media, at most.
-const COLUMNS: usize = 8 + 6 + 3;
-
-/// As many values as the lanes of every backend need, or a multiple.
-pub(crate) type Pad = [f32; MOST_LANES];
-
-/// Columns for values that are too few to fill the lanes.
-pub(crate) struct Padded {
-    given: Pad,
-    /// Of rays, emitters and media.
-    columns: [Pad; COLUMNS],
-}
-
-impl Padded {
-    pub(crate) fn new() -> Self {
-        Self { given: [0.0; MOST_LANES], columns: [[f32::NAN; MOST_LANES]; COLUMNS] }
-    }
-
-    /// Rays with one value each: those of `inputs` repeated as often as they have some of the values of `range`, then
-    /// invalid ones.
-    pub(crate) fn fill<'b>(&'b mut self, inputs: &Inputs<'b>, range: Range<usize>) -> Inputs<'b> {
-        let per_ray = inputs.per_ray.max(1);
-        let mut free = self.columns.iter_mut();
-        let columns = inputs.with_columns(|column| {
-            let pad = free.next().expect("a pad for every column");
-            for (value, i) in pad.iter_mut().zip(range.clone()) {
-                *value = column[i / per_ray];
-            }
-            pad
-        });
-        if let Some(given) = inputs.given.get(range) {
-            self.given[..given.len()].copy_from_slice(given);
-        }
-        Inputs { given: &self.given, per_ray: 1, ..columns }
-    }
-}
-
 impl Emitters<'_> {
     /// The emitters of lane group `index`; those of the whole batch where there is one.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(crate) fn lanes<I: Isa>(&self, isa: I, index: usize) -> EmitterLanes<I> {
         match self {
             Self::One(emitter) => {
@@ -321,7 +345,7 @@ impl Emitters<'_> {
     }
 
     /// Those of another group than that of `lanes`.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(crate) fn renew<I: Isa>(&self, isa: I, index: usize, lanes: &mut EmitterLanes<I>) {
         if let Self::Each { .. } = self {
             *lanes = self.lanes(isa, index);
@@ -331,7 +355,7 @@ impl Emitters<'_> {
 
 impl Media<'_> {
     /// The media of lane group `index`.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(crate) fn lanes<I: Isa>(&self, isa: I, index: usize) -> MediumLanes<I> {
         match self {
             Self::One(m) => MediumLanes::new(isa, isa.splat(m.mu_a()), isa.splat(m.mu_s()), isa.splat(m.g())),
@@ -343,7 +367,7 @@ impl Media<'_> {
     }
 
     /// Those of another group than that of `lanes`.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(crate) fn renew<I: Isa>(&self, isa: I, index: usize, lanes: &mut MediumLanes<I>) {
         if let Self::Each { .. } = self {
             *lanes = self.lanes(isa, index);
@@ -351,20 +375,21 @@ impl Media<'_> {
     }
 }
 
-/// Which of the numbers that lie next to each other for every ray of a lane group: number `index` of `per_ray`.
+/// Number `index` of the `per_ray` values of every lane of a group.
 #[derive(Clone, Copy)]
 pub(crate) struct Turn {
-    pub(crate) group: usize,
-    pub(crate) index: usize,
-    pub(crate) per_ray: usize,
+    group: usize,
+    index: usize,
+    per_ray: usize,
+    order: Order,
 }
 
 impl Turn {
     /// The numbers of this turn.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(crate) fn load<I: Isa>(self, isa: I, column: &[f32]) -> I::V {
-        if self.per_ray == 1 {
-            return isa.load(&I::groups(column)[self.group]);
+        if self.order == Order::ByTurn {
+            return isa.load(&I::groups(column)[self.group * self.per_ray + self.index]);
         }
         let mut lanes = [0.0; MOST_LANES];
         self.gather(column, &mut lanes[..I::V::N]);
@@ -372,10 +397,10 @@ impl Turn {
     }
 
     /// Writes them.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(crate) fn store<I: Isa>(self, isa: I, value: I::V, column: &mut [f32]) {
-        if self.per_ray == 1 {
-            return isa.store(value, &mut I::groups_mut(column)[self.group]);
+        if self.order == Order::ByTurn {
+            return isa.store(value, &mut I::groups_mut(column)[self.group * self.per_ray + self.index]);
         }
         let mut lanes = [0.0; MOST_LANES];
         isa.store(value, &mut I::groups_mut(&mut lanes)[0]);
@@ -407,6 +432,9 @@ pub(crate) trait Outputs {
     /// Their first `k` values, and the rest.
     fn split_at<'a>(out: Self::At<'a>, k: usize) -> (Self::At<'a>, Self::At<'a>);
 
+    /// Those of `range`, borrowed.
+    fn part<'b>(out: &'b mut Self::At<'_>, range: Range<usize>) -> Self::At<'b>;
+
     /// Has `write` write to pads, and takes from there as many values as there are.
     fn by_pads<R>(out: Self::At<'_>, write: impl FnOnce(Self::At<'_>) -> R) -> R;
 }
@@ -419,6 +447,10 @@ impl Outputs for Column {
 
     fn split_at<'a>(out: Self::At<'a>, k: usize) -> (Self::At<'a>, Self::At<'a>) {
         out.split_at_mut(k)
+    }
+
+    fn part<'b>(out: &'b mut Self::At<'_>, range: Range<usize>) -> Self::At<'b> {
+        &mut out[range]
     }
 
     fn by_pads<R>(out: &mut [f32], write: impl FnOnce(&mut [f32]) -> R) -> R {
@@ -441,6 +473,15 @@ impl Outputs for OfSamples {
         let (weight, weight_rest) = out.weight.map(|column| column.split_at_mut(k)).unzip();
         let (r, r_rest) = out.r.map(|column| column.split_at_mut(k)).unzip();
         (Samples { t, pdf, weight, r }, Samples { t: t_rest, pdf: pdf_rest, weight: weight_rest, r: r_rest })
+    }
+
+    fn part<'b>(out: &'b mut Samples<'_>, range: Range<usize>) -> Samples<'b> {
+        Samples {
+            t: &mut out.t[range.clone()],
+            pdf: &mut out.pdf[range.clone()],
+            weight: out.weight.as_mut().map(|column| &mut column[range.clone()]),
+            r: out.r.as_mut().map(|column| &mut column[range]),
+        }
     }
 
     fn by_pads<R>(out: Samples<'_>, write: impl FnOnce(Samples<'_>) -> R) -> R {

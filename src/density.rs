@@ -4,6 +4,11 @@ use crate::geometry::{Geometry, Point};
 use crate::integrand::MediumLanes;
 use crate::simd::Isa;
 
+/// A density of which the instruction set is open.
+pub(crate) trait Kind {
+    type On<I: Isa>: Density<I>;
+}
+
 /// A density over the distances of a lane group of rays, set up for one geometry and medium.
 pub(crate) trait Density<I: Isa>: Sized {
     /// What does not depend on the variate.
@@ -16,13 +21,13 @@ pub(crate) trait Density<I: Isa>: Sized {
     fn pdf(&self, isa: I, geometry: &Geometry<I>, point: &Point<I>) -> Pdf<I>;
 
     /// Which lanes can be sampled.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn lit(_: I, geometry: &Geometry<I>) -> I::Mask {
         geometry.lit
     }
 
     /// The distances `[low, high]` that are sampled \[m\].
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn support(geometry: &Geometry<I>) -> [I::V; 2] {
         [geometry.a.t, geometry.b.t]
     }
@@ -46,14 +51,14 @@ pub(crate) struct Pdf<I: Isa> {
 
 impl<I: Isa> Pdf<I> {
     /// From a density over the angle at the emitter, `dtheta = h dt / r^2`.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(crate) fn over_angle(p_theta: I::V, geometry: &Geometry<I>, point: &Point<I>) -> Self {
         let times_r2 = p_theta * geometry.h;
         Self { over_t: times_r2 / geometry.r_squared(point.t_prime), times_r2 }
     }
 
     /// From a density over distance.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(crate) fn over_distance(over_t: I::V, r: I::V) -> Self {
         Self { over_t, times_r2: over_t * (r * r) }
     }

@@ -19,14 +19,14 @@ pub(crate) struct Expanded<I: Isa> {
 }
 
 impl<I: Isa> Expanded<I> {
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(crate) fn new(p: [I::Double; ORDER + 1], theta_c: I::Double, mirrored: I::Mask) -> Self {
         Self { p, theta_c, p_c: I::V::narrow(horner_lanes(theta_c, p)), mirrored }
     }
 
     /// That of the phase function with the mean cosine `g`, (13)-(20), over its value at 0; in `-theta` for backward
     /// scattering.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(crate) fn of_phase(isa: I, g: I::V) -> Self {
         let c = |x| isa.splat_double(x);
         // v_n / v_0 = q^n.

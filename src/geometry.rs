@@ -27,7 +27,7 @@ pub(crate) struct EmitterLanes<I: Isa> {
 
 impl<I: Isa> EmitterLanes<I> {
     /// The normal (0, 0, 0) stands for none.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(crate) fn new(isa: I, position: [I::V; 3], normal: [I::V; 3]) -> Self {
         let size = normal[0].abs() + normal[1].abs() + normal[2].abs();
         let none = size.eq(isa.splat(0.0));
@@ -121,7 +121,7 @@ pub(crate) struct Geometry<I: Isa> {
 }
 
 impl<I: Isa> Geometry<I> {
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(crate) fn new(isa: I, ray: &RayLanes<I>, emitter: &EmitterLanes<I>) -> Self {
         let c = |x| isa.splat(x);
         let d = widen::<I>(ray.direction);
@@ -235,7 +235,7 @@ impl<I: Isa> Geometry<I> {
 
     /// Which lanes have more than 1e-25 of the light that an emitter faced squarely would give: below that N has no more
     /// to say in f32.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(crate) fn bright(&self, isa: I) -> I::Mask {
         let least = isa.splat(1e-25);
         let rr = self.a.r * self.b.r;
@@ -244,20 +244,20 @@ impl<I: Isa> Geometry<I> {
     }
 
     /// Which lanes have an interval that subtends more than a right angle.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(crate) fn wide(&self, isa: I) -> I::Mask {
         self.dot_of_ends().lt(isa.splat(0.0))
     }
 
     /// `h (|alpha| + |beta|)` \[m\]: no cosine is larger, nor the largest one less than two thirds of it.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn greatest_cosine_h(&self) -> I::V {
         self.beta.abs().mul_add(self.h, I::V::narrow(self.alpha_h).abs())
     }
 
     /// Which ends have less than `share` of `|alpha| + |beta|`, the size of the cosine, or where the interval subtends less
     /// than a right angle, of the sum of those at the ends.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(crate) fn dark_ends(&self, isa: I, share: f32) -> [I::Mask; 2] {
         let (n_a, n_b) = (self.a.n * self.h, self.b.n * self.h);
         let least = I::V::select(self.wide(isa), self.greatest_cosine_h(), n_a + n_b) * isa.splat(share);
@@ -265,26 +265,26 @@ impl<I: Isa> Geometry<I> {
     }
 
     /// The angle `Theta` that the lit interval subtends at the emitter, in `(0, pi]` \[rad\].
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(crate) fn subtended(&self, isa: I) -> I::V {
         angle_of(isa, self.h * self.length, self.dot_of_ends())
     }
 
     /// `BIAS` where `a` is the end nearer to the foot of the perpendicular, else minus that.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(crate) fn bias_to_a(&self, isa: I) -> I::V {
         let near_a = self.a.t_prime.abs().lt(self.b.t_prime.abs());
         I::V::select(near_a, isa.splat(BIAS), isa.splat(-BIAS))
     }
 
     /// `r_a r_b cos Theta` \[m^2\].
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(crate) fn dot_of_ends(&self) -> I::V {
         self.a.t_prime.mul_add(self.b.t_prime, self.h_squared)
     }
 
     /// `S = alpha sin theta - beta cos theta` at an end: `dS/dtheta = N`.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(crate) fn antiderivative(&self, end: &End<I>) -> I::V {
         self.alpha.mul_add(end.t_prime, -(self.beta * self.h)) / end.r
     }
@@ -293,7 +293,7 @@ impl<I: Isa> Geometry<I> {
     ///
     /// With `t'_e` counted towards the interval, its distance from the end is `2 tau r_e^2 / D` and its `t'` is
     /// `h (t'_e (1 - tau^2) + 2 tau h) / D`, where `D = h (1 - tau^2) - 2 tau t'_e`.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(crate) fn point_at_angle(&self, isa: I, from_a: I::Mask, tau: I::V) -> Point<I> {
         let c = |x| isa.splat(x);
         let toward = |a: I::V, b: I::V| I::V::select(from_a, a, -b);
@@ -314,7 +314,7 @@ impl<I: Isa> Geometry<I> {
     }
 
     /// The point at these distances from the ends and from the foot of the perpendicular.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(crate) fn point_between(&self, isa: I, from_a: I::V, to_b: I::V, t_prime: I::V) -> Point<I> {
         // m from the end where N is smaller: both terms are positive.
         let rising = isa.splat(0.0).le(self.beta);
@@ -326,7 +326,7 @@ impl<I: Isa> Geometry<I> {
 
     /// The same with the `t'` and the `r` of what was rounded to `t`, where `t` is smaller than about `r` and so resolves
     /// it: they are exact then.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(crate) fn as_rounded(&self, point: Point<I>, about_r: I::V) -> Point<I> {
         let exact = point.t.widen() - self.t_h;
         let t_prime = I::V::select(point.t.lt(about_r), I::V::narrow(exact), point.t_prime);
@@ -334,18 +334,18 @@ impl<I: Isa> Geometry<I> {
     }
 
     /// The point of the ray at the given distance, which may lie outside the lit interval.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(crate) fn point_at_distance(&self, isa: I, t: I::V) -> Point<I> {
         self.point(isa, t, t.widen() - self.t_h)
     }
 
     /// The point at the distance `s` from `t_min`.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(crate) fn point_from_t_min(&self, isa: I, s: I::V) -> Point<I> {
         self.point(isa, (self.t_min + s).min(self.t_max), self.t_prime_min + s.widen())
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn point(&self, isa: I, t: I::V, exact_t_prime: I::Double) -> Point<I> {
         let m = I::V::narrow(self.beta_exact.mul_add(exact_t_prime, self.alpha_h));
         let t_prime = I::V::narrow(exact_t_prime);
@@ -353,26 +353,26 @@ impl<I: Isa> Geometry<I> {
     }
 
     /// The start of the lit interval.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(crate) fn start(&self) -> Point<I> {
         let End { t, t_prime, r, m, .. } = self.a;
         Point { t, t_prime, exact_t_prime: t_prime.widen(), r, m }
     }
 
     /// The distance of a point of the lit interval from its start \[m\].
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(crate) fn way_from_a(&self, isa: I, point: &Point<I>) -> I::V {
         ((point.t - self.a.t) - self.a.t_low).max(isa.splat(0.0))
     }
 
     /// And from its end.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(crate) fn way_to_b(&self, isa: I, point: &Point<I>) -> I::V {
         ((self.b.t - point.t) + self.b.t_low).max(isa.splat(0.0))
     }
 
     /// What is left of the interval beyond `offset` from one end: by the length, or by `t'` where that is smaller.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn rest(&self, isa: I, offset: I::V, t_prime: I::V, far_t_prime: I::V) -> I::V {
         let by_length = (self.length - offset).max(isa.splat(0.0));
         let size = t_prime.abs().max(far_t_prime.abs());
@@ -380,7 +380,7 @@ impl<I: Isa> Geometry<I> {
     }
 
     /// `t` from the nearest of the places that are known exactly: the ends, and `t_h`.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn distance(&self, t_prime: I::V, from_a: I::V, to_b: I::V) -> I::V {
         let by_a = self.a.t + (self.a.t_low + from_a);
         let by_b = self.b.t + (self.b.t_low - to_b);
@@ -391,32 +391,32 @@ impl<I: Isa> Geometry<I> {
     }
 
     /// The distance to the emitter \[m\].
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(crate) fn r(&self, t_prime: I::V) -> I::V {
         self.r_squared(t_prime).sqrt()
     }
 
     /// Its square.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(crate) fn r_squared(&self, t_prime: I::V) -> I::V {
         t_prime.mul_add(t_prime, self.h_squared)
     }
 
     /// The cosine `N` at a point.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(crate) fn cosine(&self, isa: I, point: &Point<I>) -> I::V {
         I::V::select(self.has_normal, point.m / point.r, isa.splat(1.0))
     }
 
     /// The length of the path from `t_min` over the point to the emitter \[m\].
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(crate) fn path(&self, isa: I, point: &Point<I>) -> I::Double {
         let (_, r) = self.exact_r(isa, point);
         (point.exact_t_prime - self.t_prime_min) + r
     }
 
     /// `X = t' + r` and `r` \[m\] in f64: `exp(-mu_t X)` is the transmittance but for a constant.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(crate) fn exact_x_and_r(&self, isa: I, point: &Point<I>) -> (I::Double, I::Double) {
         let (h_squared, r) = self.exact_r(isa, point);
         let t_prime = point.exact_t_prime;
@@ -428,7 +428,7 @@ impl<I: Isa> Geometry<I> {
     }
 
     /// `h^2`, and `r` by a Newton step of its root: the exponential multiplies an error of the optical depth by the depth.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn exact_r(&self, isa: I, point: &Point<I>) -> (I::Double, I::Double) {
         let (t_prime, r) = (point.exact_t_prime, point.r.widen());
         let least = self.least_h.widen();
@@ -440,18 +440,18 @@ impl<I: Isa> Geometry<I> {
 }
 
 // Spelt out, as all of the kernels: a closure that is not inlined is a call, and a call costs more than the kernel.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 fn widen<I: Isa>([x, y, z]: [I::V; 3]) -> [I::Double; 3] {
     [x.widen(), y.widen(), z.widen()]
 }
 
 /// The size of the largest component.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 fn largest<I: Isa>([x, y, z]: [I::V; 3]) -> I::V {
     x.abs().max(y.abs()).max(z.abs())
 }
 
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 fn dot<D: Double>(a: [D; 3], b: [D; 3]) -> D {
     a[2].mul_add(b[2], a[1].mul_add(b[1], a[0] * b[0]))
 }

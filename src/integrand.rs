@@ -31,7 +31,7 @@ pub(crate) struct Lobe<I: Isa> {
 const MOST_FORWARD: f32 = 1.0 - f32::EPSILON / 2.0;
 
 impl<I: Isa> Lobe<I> {
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn new(isa: I, g: I::V) -> Self {
         let one = isa.splat(1.0);
         let height = (one + g) * (one - g) * isa.splat(0.25 * core::f32::consts::FRAC_1_PI);
@@ -42,7 +42,7 @@ impl<I: Isa> Lobe<I> {
 }
 
 impl<I: Isa> MediumLanes<I> {
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(crate) fn new(isa: I, mu_a: I::V, mu_s: I::V, g: I::V) -> Self {
         let (zero, mu_t) = (isa.splat(0.0), mu_a + mu_s);
         let valid = zero.le(mu_a) & zero.le(mu_s) & mu_t.le(isa.splat(f32::MAX)) & g.abs().le(isa.splat(1.0));
@@ -51,13 +51,13 @@ impl<I: Isa> MediumLanes<I> {
 }
 
 /// `mu_s T rho N` \[1/m\]: the integrand times `r^2`.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 pub(crate) fn integrand_r2<I: Isa>(isa: I, g: &Geometry<I>, medium: &MediumLanes<I>, point: &Point<I>) -> I::V {
     (medium.mu_s * transmittance(isa, g, medium, point)) * (phase(isa, g, medium.g, point) * g.cosine(isa, point))
 }
 
 /// From `t_min` over the point to the emitter, (3).
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 pub(crate) fn transmittance<I: Isa>(isa: I, g: &Geometry<I>, medium: &MediumLanes<I>, point: &Point<I>) -> I::V {
     exp(isa, -(medium.mu_t.widen() * g.path(isa, point)))
 }
@@ -65,7 +65,7 @@ pub(crate) fn transmittance<I: Isa>(isa: I, g: &Geometry<I>, medium: &MediumLane
 /// Henyey-Greenstein, (12): `(1 - g^2) / (4 pi (1 + g^2 + 2 g sin theta)^(3/2))` \[1/sr\].
 ///
 /// The denominator is `(1 - |g|)^2 + 2 |g| (1 +- sin theta)`, and `1 +- sin theta = (r +- t')/r` without cancellation.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 fn phase<I: Isa>(isa: I, geometry: &Geometry<I>, g: I::V, point: &Point<I>) -> I::V {
     let c = |x| isa.splat(x);
     let (h, r) = (geometry.h, point.r);

@@ -33,7 +33,7 @@ pub(crate) struct At<I: Isa> {
 /// middle. A lane stops where `|f| <= tolerance`, or after a step so short that little can be left, at most four times the
 /// tolerance where the curvature is rough: what a lane does depends on no other lane. The result lies in the bracket
 /// whatever `f` returns.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 pub(crate) fn solve<I: Isa>(
     isa: I,
     f: impl Fn(I::V) -> At<I>,

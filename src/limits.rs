@@ -3,7 +3,7 @@
 use crate::batch::{Emitters, Inputs, Media, OfSamples, Outputs, Rays, Samples};
 use crate::road::{self, Task};
 use crate::simd::counting::Counting;
-use crate::simd::{Backend, Isa, Kernel, Lanes, Number};
+use crate::simd::{Backend, Isa, Kernel, Lanes, Machine, Number};
 use crate::{Error, Sampler};
 use core::hint::black_box;
 use core::ops::Add;
@@ -55,7 +55,7 @@ impl Sampler {
             let few = inputs.slice(start..inputs.len().min(start + AT_ONCE));
             let (out, beyond) = OfSamples::split_at(rest, few.len() * few.per_ray);
             rest = beyond;
-            needed = needed + Counting::count(|isa| road::Sample::run(isa, self.strategy(), &few, out));
+            needed = needed + Counting::count(|counting| road::Sample::run(counting, self.strategy(), &few, out));
         }
         Ok(needed)
     }
@@ -94,8 +94,9 @@ struct Chains<const N: usize> {
 
 impl<const N: usize> Kernel for Chains<N> {
     type Output = usize;
+    type Home = Self;
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn run<I: Isa>(self, isa: I) -> usize {
         let (m, a, one) = (isa.splat(black_box(0.5)), isa.splat(black_box(0.75)), isa.splat(black_box(1.0)));
         let mut x = [isa.splat(black_box(1.25)); N];

@@ -1,27 +1,37 @@
 //! The road that every ray takes: columns -> geometry -> density -> inversion -> samples.
 //!
-//! A batch is cut into chunks that stay in a core's cache; a chunk goes through the kernel of one strategy, a lane
-//! group at a time. No ray's arithmetic knows where in the batch it stands: chunks and threads change no bit.
+//! A batch is cut into chunks that stay in a core's cache; a chunk goes through the kernel of one task and one density, a
+//! lane group at a time. No ray's arithmetic knows where in the batch it stands: chunks and threads change no bit.
 
+mod evaluate;
+mod groups;
+mod pdf;
+mod radiance;
+mod sample;
 #[cfg(feature = "measure")]
 pub(crate) mod stages;
 
+pub(crate) use evaluate::Evaluate;
+pub(crate) use pdf::Pdf;
+pub(crate) use radiance::Radiance;
+pub(crate) use sample::Sample;
+
 use crate::Strategy;
-use crate::batch::{Column, Counts, Inputs, OfSamples, Outputs, Padded, Samples, Turn};
-use crate::density::Density;
-use crate::geometry::Geometry;
-use crate::integrand::{MediumLanes, integrand_r2};
-use crate::simd::{Backend, Isa, Kernel, Lanes, MOST_LANES, none};
-use crate::strategy::Taylor;
-use crate::strategy::equi_angular::EquiAngular;
-use crate::strategy::point_normal::PointNormal;
-use crate::strategy::product::Product;
-use crate::strategy::taylor_phase::OfPhase;
-use crate::strategy::taylor_transmittance::OfTransmittance;
-use crate::strategy::transmittance::Transmittance;
+use crate::batch::{Counts, Inputs, Outputs, Pads, first_values};
+use crate::density::Kind;
+use crate::simd::{Backend, Isa, Kernel, MOST_LANES, Machine};
+use crate::strategy::product::knots;
+use crate::strategy::{equi_angular, point_normal, taylor_phase, taylor_transmittance, transmittance};
+use core::marker::PhantomData;
+use core::ops::Range;
 
 /// Values per chunk: up to 22 columns of this many are 352 KiB, which stay in a core's cache.
 const CHUNK: usize = 4096;
+/// A ray with so many values goes by itself. Its values fill the lanes, and it takes the set-up of a whole lane group: with
+/// 32 lanes, one for 32 draws.
+const MANY: usize = 1024;
+// The lanes of a kernel count the values of a chunk in f32.
+const _: () = assert!(CHUNK + MOST_LANES * MANY < 1 << f32::MANTISSA_DIGITS);
 
 /// Where a task writes to.
 pub(crate) type Out<'a, T> = <<T as Task>::Out as Outputs>::At<'a>;
@@ -31,48 +41,63 @@ pub(crate) trait Task {
     /// The columns that it writes.
     type Out: Outputs;
 
-    /// How many values it writes for each ray.
-    fn values_per_ray(inputs: &Inputs<'_>) -> usize {
-        inputs.per_ray
-    }
-
-    /// Takes one chunk the whole way.
-    fn run<I: Isa>(isa: I, strategy: Strategy, inputs: &Inputs<'_>, out: Out<'_, Self>) -> Counts;
+    /// Takes whole lane groups the whole way, by the kernel of `strategy`.
+    fn run(machine: impl Machine, strategy: Strategy, inputs: &Inputs<'_>, out: Out<'_, Self>) -> Counts;
 }
 
 /// A task for which every density has a kernel of its own.
 trait OfDensity: Task {
-    fn chunk<I: Isa, D: Density<I>>(isa: I, inputs: &Inputs<'_>, out: Out<'_, Self>) -> Counts;
+    fn groups<I: Isa, D: Kind>(isa: I, inputs: &Inputs<'_>, out: Out<'_, Self>) -> Counts;
 }
 
-/// Chooses the kernel.
-#[inline(always)]
-fn by_strategy<I: Isa, T: OfDensity>(isa: I, strategy: Strategy, inputs: &Inputs<'_>, out: Out<'_, T>) -> Counts {
+/// The kernel of a task and a density.
+struct OnGroups<'i, 'o, T: Task, D> {
+    inputs: &'i Inputs<'i>,
+    out: Out<'o, T>,
+    density: PhantomData<D>,
+}
+
+impl<T: OfDensity, D: Kind> Kernel for OnGroups<'_, '_, T, D> {
+    type Output = Counts;
+    type Home = D;
+
+    #[cfg_attr(optimized, inline(always))]
+    fn run<I: Isa>(self, isa: I) -> Counts {
+        T::groups::<I, D>(isa, self.inputs, self.out)
+    }
+}
+
+/// Chooses the kernel of a task.
+fn by_strategy<T: OfDensity>(
+    machine: impl Machine,
+    strategy: Strategy,
+    inputs: &Inputs<'_>,
+    out: Out<'_, T>,
+) -> Counts {
+    fn with<T: OfDensity, D: Kind>(machine: impl Machine, inputs: &Inputs<'_>, out: Out<'_, T>) -> Counts {
+        machine.run(OnGroups::<T, D> { inputs, out, density: PhantomData })
+    }
     match strategy {
-        Strategy::Transmittance => T::chunk::<I, Transmittance<I>>(isa, inputs, out),
-        Strategy::EquiAngular => T::chunk::<I, EquiAngular<I>>(isa, inputs, out),
-        Strategy::PointNormal => T::chunk::<I, PointNormal<I>>(isa, inputs, out),
-        Strategy::TaylorTransmittance => T::chunk::<I, Taylor<I, OfTransmittance>>(isa, inputs, out),
-        Strategy::TaylorPhase => T::chunk::<I, Taylor<I, OfPhase>>(isa, inputs, out),
-        Strategy::Product3 => T::chunk::<I, Product<I, 3>>(isa, inputs, out),
-        Strategy::Product5 => T::chunk::<I, Product<I, 5>>(isa, inputs, out),
-        Strategy::Product9 => T::chunk::<I, Product<I, 9>>(isa, inputs, out),
-        Strategy::Product17 => T::chunk::<I, Product<I, 17>>(isa, inputs, out),
+        Strategy::Transmittance => with::<T, transmittance::Kind>(machine, inputs, out),
+        Strategy::EquiAngular => with::<T, equi_angular::Kind>(machine, inputs, out),
+        Strategy::PointNormal => with::<T, point_normal::Kind>(machine, inputs, out),
+        Strategy::TaylorTransmittance => with::<T, taylor_transmittance::OfTransmittance>(machine, inputs, out),
+        Strategy::TaylorPhase => with::<T, taylor_phase::OfPhase>(machine, inputs, out),
+        Strategy::Product3 => with::<T, knots::three::Kind>(machine, inputs, out),
+        Strategy::Product5 => with::<T, knots::five::Kind>(machine, inputs, out),
+        Strategy::Product9 => with::<T, knots::nine::Kind>(machine, inputs, out),
+        Strategy::Product17 => with::<T, knots::seventeen::Kind>(machine, inputs, out),
     }
 }
 
 /// Takes a batch the whole way, its chunks spread over the threads.
 pub(crate) fn travel<T: Task>(backend: Backend, strategy: Strategy, inputs: &Inputs<'_>, out: Out<'_, T>) -> Counts {
-    // Whole lane groups, however many values a ray has.
-    let chunk = (CHUNK / inputs.per_ray.max(1)).next_multiple_of(MOST_LANES).max(MOST_LANES);
-    if inputs.len() <= chunk {
-        return whole_groups::<T>(backend, strategy, inputs, out);
-    }
-    // Halves of whole chunks, so that a chunk is cut short at the end of the batch alone.
-    let half = inputs.len().div_ceil(chunk).div_ceil(2) * chunk;
-    let (out_low, out_high) = T::Out::split_at(out, half * T::values_per_ray(inputs));
-    let low = || travel::<T>(backend, strategy, &inputs.slice(0..half), out_low);
-    let high = || travel::<T>(backend, strategy, &inputs.slice(half..inputs.len()), out_high);
+    let Some((low, high)) = halves(inputs) else {
+        return by_groups::<T>(backend, strategy, inputs, out);
+    };
+    let (out_low, out_high) = T::Out::split_at(out, low.values());
+    let low = || travel::<T>(backend, strategy, &low, out_low);
+    let high = || travel::<T>(backend, strategy, &high, out_high);
     #[cfg(feature = "rayon")]
     let (low, high) = rayon::join(low, high);
     #[cfg(not(feature = "rayon"))]
@@ -80,339 +105,88 @@ pub(crate) fn travel<T: Task>(backend: Backend, strategy: Strategy, inputs: &Inp
     low + high
 }
 
-/// Takes a chunk the whole way. Kernels only know whole lane groups: the rays at the end that are too few go one value a
-/// lane.
-fn whole_groups<T: Task>(backend: Backend, strategy: Strategy, inputs: &Inputs<'_>, out: Out<'_, T>) -> Counts {
-    let whole = inputs.len() / MOST_LANES * MOST_LANES;
-    let (out_whole, mut out) = T::Out::split_at(out, whole * T::values_per_ray(inputs));
+/// Halves of whole chunks, so that only the last chunk is cut short; `None` for a single chunk.
+fn halves<'a>(inputs: &Inputs<'a>) -> Option<(Inputs<'a>, Inputs<'a>)> {
+    let half = |length: usize, chunk: usize| length.div_ceil(chunk).div_ceil(2) * chunk;
+    let (rays, per_ray) = (inputs.len(), inputs.per_ray);
+    let chunk = match CHUNK / per_ray {
+        _ if per_ray >= MANY => 1,
+        rays => rays.next_multiple_of(MOST_LANES),
+    };
+    if rays > chunk {
+        let half = half(rays, chunk);
+        Some((inputs.slice(0..half), inputs.slice(half..rays)))
+    } else if rays == 1 && per_ray > CHUNK {
+        let half = half(per_ray, CHUNK);
+        Some((inputs.of_one_ray(0..half), inputs.of_one_ray(half..per_ray)))
+    } else {
+        None
+    }
+}
+
+/// Takes a chunk the whole way. Kernels take whole lane groups and leave out the rays that do not fill one. These go one by
+/// one, or as a group with rays before them, or as a group with pads.
+fn by_groups<T: Task>(backend: Backend, strategy: Strategy, inputs: &Inputs<'_>, mut out: Out<'_, T>) -> Counts {
+    let (lanes, rays, per_ray) = (backend.lanes(), inputs.len(), inputs.per_ray);
+    match rays {
+        0 => return Counts::default(),
+        1 => return one_ray::<T>(backend, strategy, inputs, out),
+        _ => {}
+    }
+    let few = rays % lanes;
+    if few == 0 {
+        return T::run(backend, strategy, inputs, out);
+    }
+    let whole = rays - few;
     let mut counts = Counts::default();
     if whole > 0 {
-        counts = backend.run(Chunk::<T> { strategy, inputs: &inputs.slice(0..whole), out: out_whole });
+        let out = T::Out::part(&mut out, 0..rays * per_ray);
+        counts = T::run(backend, strategy, inputs, out);
     }
-    let few = inputs.slice(whole..inputs.len());
-    let values = few.len() * T::values_per_ray(&few);
-    for start in (0..values).step_by(MOST_LANES) {
-        let end = values.min(start + MOST_LANES);
-        let (out_here, out_rest) = T::Out::split_at(out, end - start);
-        out = out_rest;
-        let mut padded = Padded::new();
-        let inputs = &padded.fill(&few, start..end);
-        counts = counts + T::Out::by_pads(out_here, |out| backend.run(Chunk::<T> { strategy, inputs, out }));
-        // What fills up is invalid.
-        counts.invalid -= MOST_LANES - (end - start);
-    }
-    counts
-}
-
-/// One chunk on its way to its kernel.
-struct Chunk<'i, 'o, T: Task> {
-    strategy: Strategy,
-    inputs: &'i Inputs<'i>,
-    out: Out<'o, T>,
-}
-
-impl<T: Task> Kernel for Chunk<'_, '_, T> {
-    type Output = Counts;
-
-    #[inline(always)]
-    fn run<I: Isa>(self, isa: I) -> Counts {
-        T::run(isa, self.strategy, self.inputs, self.out)
-    }
-}
-
-/// A lane group before its density is chosen.
-struct Group<I: Isa> {
-    geometry: Geometry<I>,
-    medium: MediumLanes<I>,
-    /// Which one of the chunk it is.
-    index: usize,
-}
-
-impl<I: Isa> Group<I> {
-    /// Which lanes are rays with a medium.
-    #[inline(always)]
-    fn valid(&self) -> I::Mask {
-        self.geometry.valid & self.medium.valid
-    }
-}
-
-/// What became of the values: summed in the lanes, and settled over all of them now and then.
-struct Tally<I: Isa> {
-    valid: I::V,
-    sampled: I::V,
-    bisected: I::V,
-    /// How many values there were.
-    values: usize,
-    settled: Counts,
-}
-
-impl<I: Isa> Tally<I> {
-    #[inline(always)]
-    fn new(isa: I) -> Self {
-        let zero = isa.splat(0.0);
-        Self { valid: zero, sampled: zero, bisected: zero, values: 0, settled: Counts::default() }
-    }
-
-    /// One more value for each lane: `valid` with what was given, `lit` for the density, and `bisected`.
-    #[inline(always)]
-    fn add(&mut self, isa: I, valid: I::Mask, lit: I::Mask, bisected: I::Mask) {
-        let (one, zero) = (isa.splat(1.0), isa.splat(0.0));
-        let sampled = valid & lit;
-        self.valid = self.valid + I::V::select(valid, one, zero);
-        self.sampled = self.sampled + I::V::select(sampled, one, zero);
-        self.bisected = self.bisected + I::V::select(bisected & sampled, one, zero);
-        self.values += I::V::N;
-    }
-
-    /// Keeps the sums small enough to be exact.
-    #[inline(always)]
-    fn settle(&mut self, isa: I) {
-        let [valid, sampled, bisected] =
-            [sum_of_lanes(isa, self.valid), sum_of_lanes(isa, self.sampled), sum_of_lanes(isa, self.bisected)];
-        let settled = self.settled + Counts { sampled, empty: valid - sampled, invalid: 0, bisected };
-        *self = Self { settled, values: self.values, ..Self::new(isa) };
-    }
-
-    #[inline(always)]
-    fn counts(mut self, isa: I) -> Counts {
-        self.settle(isa);
-        let Counts { sampled, empty, bisected, .. } = self.settled;
-        Counts { sampled, empty, invalid: self.values - sampled - empty, bisected }
-    }
-}
-
-/// The sum of whole numbers.
-#[inline(always)]
-fn sum_of_lanes<I: Isa>(isa: I, lanes: I::V) -> usize {
-    let mut values = [0.0; MOST_LANES];
-    isa.store(lanes, &mut I::groups_mut(&mut values)[0]);
-    let mut sum = 0;
-    for value in values {
-        sum += value as usize;
-    }
-    sum
-}
-
-/// The lane groups of a chunk, each visited once.
-#[inline(always)]
-fn for_each_group<I: Isa>(isa: I, inputs: &Inputs<'_>, mut visit: impl FnMut(Group<I>, &mut Tally<I>)) -> Counts {
-    let mut tally = Tally::new(isa);
-    let rays = inputs.ray_groups::<I>();
-    let (mut emitter, mut medium) = (inputs.emitters.lanes(isa, 0), inputs.media.lanes(isa, 0));
-    for index in 0..rays.count() {
-        if index > 0 {
-            inputs.emitters.renew(isa, index, &mut emitter);
-            inputs.media.renew(isa, index, &mut medium);
-        }
-        let geometry = Geometry::new(isa, &rays.lanes(isa, index), &emitter);
-        visit(Group { geometry, medium, index }, &mut tally);
-    }
-    tally.counts(isa)
-}
-
-/// What is given for a lane group, turn by turn.
-#[inline(always)]
-fn for_each_turn<I: Isa>(
-    isa: I,
-    inputs: &Inputs<'_>,
-    group: usize,
-    tally: &mut Tally<I>,
-    mut visit: impl FnMut(Turn, I::V, &mut Tally<I>),
-) {
-    for index in 0..inputs.per_ray {
-        if index > 0 && index % TURNS_TO_SETTLE == 0 {
-            tally.settle(isa);
-        }
-        let turn = Turn { group, index, per_ray: inputs.per_ray };
-        visit(turn, turn.load(isa, inputs.given), tally);
-    }
-}
-/// Between two settlings a lane has one run of so many turns, and less than another one before it, or at most a chunk of
-/// rays with fewer: all are whole numbers that f32 can count.
-const TURNS_TO_SETTLE: usize = 1 << 16;
-const _: () = assert!(TURNS_TO_SETTLE * (MOST_LANES + 1) < 1 << f32::MANTISSA_DIGITS);
-
-/// Draws a distance for every variate that is given.
-pub(crate) struct Sample;
-
-impl Task for Sample {
-    type Out = OfSamples;
-
-    #[inline(always)]
-    fn run<I: Isa>(isa: I, strategy: Strategy, inputs: &Inputs<'_>, out: Samples<'_>) -> Counts {
-        by_strategy::<I, Self>(isa, strategy, inputs, out)
-    }
-}
-
-impl OfDensity for Sample {
-    #[inline(always)]
-    fn chunk<I: Isa, D: Density<I>>(isa: I, inputs: &Inputs<'_>, out: Samples<'_>) -> Counts {
-        // Apart, as what weights are made of would be computed, and kept in memory, where nobody asks for them.
-        if out.weight.is_some() || out.r.is_some() {
-            sample::<I, D, true>(isa, inputs, out)
+    // Set-ups and draws of lane groups, which take about as long: one by one, and together.
+    let by_themselves = few * (1 + per_ray.div_ceil(lanes)) < 1 + per_ray;
+    let rest = if by_themselves {
+        let of_ray = |i| {
+            let out = T::Out::part(&mut out, i * per_ray..(i + 1) * per_ray);
+            one_ray::<T>(backend, strategy, &inputs.slice(i..i + 1), out)
+        };
+        (whole..rays).map(of_ray).fold(Counts::default(), |sum, counts| sum + counts)
+    } else if whole > 0 {
+        // The last group once more, up to the end: what was written is written again, with the same bits.
+        let last = inputs.from(rays - lanes).counting(lanes - few..lanes);
+        let out = T::Out::part(&mut out, (rays - lanes) * per_ray..rays * per_ray);
+        T::run(backend, strategy, &last, out)
+    } else {
+        let mut pads = Pads::new();
+        let padded = pads.of_rays(inputs, lanes).counting(0..few);
+        if per_ray == 1 {
+            let given = first_values(inputs.given);
+            T::Out::by_pads(out, |out| T::run(backend, strategy, &padded.by_turn(&given, 1), out))
         } else {
-            sample::<I, D, false>(isa, inputs, out)
+            // Lanes beyond the rays find no values.
+            T::run(backend, strategy, &padded, out)
         }
-    }
+    };
+    counts + rest
 }
 
-#[inline(always)]
-fn sample<I: Isa, D: Density<I>, const WITH_WEIGHT_OR_R: bool>(
-    isa: I,
-    inputs: &Inputs<'_>,
-    mut out: Samples<'_>,
-) -> Counts {
-    let zero = isa.splat(0.0);
-    for_each_group(
-        isa,
-        inputs,
-        #[inline(always)]
-        |group, tally| {
-            let Group { geometry, medium, index } = &group;
-            let density = D::new(isa, geometry, medium);
-            let lit = D::lit(isa, geometry);
-            for_each_turn(
-                isa,
-                inputs,
-                *index,
-                tally,
-                #[inline(always)]
-                |turn, u, tally| {
-                    let valid = group.valid() & zero.le(u) & u.le(isa.splat(1.0));
-                    let sampled = valid & lit;
-                    let drawn = density.invert(isa, geometry, u);
-                    turn.store(isa, I::V::select(sampled, drawn.point.t, zero), out.t);
-                    turn.store(isa, I::V::select(sampled, drawn.pdf.over_t, zero), out.pdf);
-                    if WITH_WEIGHT_OR_R && let Some(weight) = &mut out.weight {
-                        let value = integrand_r2(isa, geometry, medium, &drawn.point) / drawn.pdf.times_r2;
-                        let possible = sampled & zero.lt(drawn.pdf.times_r2);
-                        turn.store(isa, I::V::select(possible, value.min(isa.splat(f32::MAX)), zero), weight);
-                    }
-                    if WITH_WEIGHT_OR_R && let Some(r) = &mut out.r {
-                        turn.store(isa, I::V::select(sampled, drawn.point.r, zero), r);
-                    }
-                    tally.add(isa, valid, lit, drawn.bisected);
-                },
-            );
-        },
-    )
-}
-
-/// The density at given distances.
-pub(crate) struct Pdf;
-
-impl Task for Pdf {
-    type Out = Column;
-
-    #[inline(always)]
-    fn run<I: Isa>(isa: I, strategy: Strategy, inputs: &Inputs<'_>, out: &mut [f32]) -> Counts {
-        by_strategy::<I, Self>(isa, strategy, inputs, out)
+/// Takes one ray the whole way: every lane has it, and a value of its own.
+fn one_ray<T: Task>(backend: Backend, strategy: Strategy, inputs: &Inputs<'_>, mut out: Out<'_, T>) -> Counts {
+    let (lanes, values) = (backend.lanes(), inputs.per_ray);
+    let mut pads = Pads::new();
+    let everywhere = pads.of_one_ray(inputs, lanes);
+    if values < lanes {
+        let given = first_values(inputs.given);
+        let turn = everywhere.by_turn(&given, 1).counting(0..values);
+        return T::Out::by_pads(out, |out| T::run(backend, strategy, &turn, out));
     }
-}
-
-impl OfDensity for Pdf {
-    #[inline(always)]
-    fn chunk<I: Isa, D: Density<I>>(isa: I, inputs: &Inputs<'_>, out: &mut [f32]) -> Counts {
-        let zero = isa.splat(0.0);
-        for_each_group(
-            isa,
-            inputs,
-            #[inline(always)]
-            |group, tally| {
-                let Group { geometry, medium, index } = &group;
-                let density = D::new(isa, geometry, medium);
-                let (lit, [low, high]) = (D::lit(isa, geometry), D::support(geometry));
-                for_each_turn(
-                    isa,
-                    inputs,
-                    *index,
-                    tally,
-                    #[inline(always)]
-                    |turn, t, tally| {
-                        let valid = group.valid() & t.eq(t);
-                        let inside = valid & lit & low.le(t) & t.le(high);
-                        let pdf = density.pdf(isa, geometry, &geometry.point_at_distance(isa, t));
-                        turn.store(isa, I::V::select(inside, pdf.over_t, zero), out);
-                        tally.add(isa, valid, lit, none(isa));
-                    },
-                );
-            },
-        )
-    }
-}
-
-/// The integrand at given distances, whatever the density.
-pub(crate) struct Evaluate;
-
-impl Task for Evaluate {
-    type Out = Column;
-
-    #[inline(always)]
-    fn run<I: Isa>(isa: I, _: Strategy, inputs: &Inputs<'_>, out: &mut [f32]) -> Counts {
-        let zero = isa.splat(0.0);
-        for_each_group(
-            isa,
-            inputs,
-            #[inline(always)]
-            |group, tally| {
-                let Group { geometry, medium, index } = &group;
-                for_each_turn(
-                    isa,
-                    inputs,
-                    *index,
-                    tally,
-                    #[inline(always)]
-                    |turn, t, tally| {
-                        let valid = group.valid() & t.eq(t);
-                        let inside = valid & geometry.faced & geometry.t_min.le(t) & t.le(geometry.t_max);
-                        let point = geometry.point_at_distance(isa, t);
-                        let f = integrand_r2(isa, geometry, medium, &point) / (point.r * point.r);
-                        turn.store(isa, I::V::select(inside, f.min(isa.splat(f32::MAX)), zero), out);
-                        tally.add(isa, valid, geometry.faced, none(isa));
-                    },
-                );
-            },
-        )
-    }
-}
-
-/// What the density's own normalisation says of the integral; 0 for a density that has none.
-pub(crate) struct Radiance;
-
-impl Task for Radiance {
-    type Out = Column;
-
-    fn values_per_ray(_: &Inputs<'_>) -> usize {
-        1
-    }
-
-    #[inline(always)]
-    fn run<I: Isa>(isa: I, strategy: Strategy, inputs: &Inputs<'_>, out: &mut [f32]) -> Counts {
-        match strategy {
-            Strategy::Product3 => radiance::<I, 3>(isa, inputs, out),
-            Strategy::Product5 => radiance::<I, 5>(isa, inputs, out),
-            Strategy::Product9 => radiance::<I, 9>(isa, inputs, out),
-            Strategy::Product17 => radiance::<I, 17>(isa, inputs, out),
-            _ => Counts::default(),
-        }
-    }
-}
-
-#[inline(always)]
-fn radiance<I: Isa, const K: usize>(isa: I, inputs: &Inputs<'_>, out: &mut [f32]) -> Counts {
-    let zero = isa.splat(0.0);
-    for_each_group(
-        isa,
-        inputs,
-        #[inline(always)]
-        |group, tally| {
-            let Group { geometry, medium, index } = &group;
-            let lit = Product::<I, K>::lit(isa, geometry);
-            let sampled = group.valid() & lit;
-            let radiance = Product::<I, K>::new(isa, geometry, medium).radiance(isa, geometry, medium);
-            let value = I::V::select(sampled, radiance.min(isa.splat(f32::MAX)), zero);
-            Turn { group: *index, index: 0, per_ray: 1 }.store(isa, value, out);
-            tally.add(isa, group.valid(), lit, none(isa));
-        },
-    )
+    let mut run = |range: Range<usize>, counted| {
+        let given = inputs.of_one_ray(range.clone()).given;
+        let turns = everywhere.by_turn(given, range.len() / lanes).counting(counted);
+        T::run(backend, strategy, &turns, T::Out::part(&mut out, range))
+    };
+    let few = values % lanes;
+    let whole = run(0..values - few, 0..lanes);
+    // The last turn once more, up to the end.
+    if few == 0 { whole } else { whole + run(values - lanes..values, lanes - few..lanes) }
 }

@@ -14,10 +14,9 @@ use core::slice::{from_mut, from_ref};
 /// denormals-are-zero on its own thread gets it in small batches, which run on the calling thread, and not in large ones,
 /// which run on those of the pool: the two then differ in bits.
 ///
-/// With both flags set, as measured for every strategy on AVX2 and portable, `t`, `pdf` and `r` kept their bits in boxes of
-/// side 10 and 2, a kilometre from the emitter, on rays without end and on intervals of a nanoradian; weights and integrands
-/// kept theirs but where a factor of them is about f32's least normal number, 1.2e-38, or below. All of them may differ where
-/// the emitter is on the ray's line or next to it, and where lengths are at either end of f32's range.
+/// With both flags set, `t`, `pdf` and `r` keep their bits at ordinary scales: lengths from a millimetre to a kilometre, and
+/// an emitter that is not on the ray's line. Weights and integrands keep theirs there unless a factor of them is below
+/// f32's least normal number, 1.2e-38. Elsewhere any of them may differ. (Measured once, on AVX2 and on portable.)
 #[derive(Clone, Copy, Debug)]
 pub struct Sampler {
     strategy: Strategy,
@@ -139,11 +138,18 @@ impl Sampler {
     /// The density at given distances `t`, for multiple importance sampling \[1/m\]; 0 outside the sampled interval.
     ///
     /// It is the density of what [`sample`](Self::sample) returns, taken at `t` as rounded: where `t` resolves `r` the
-    /// two agree within 1e-5, next to the emitter that of `sample` is the exact one. Error at a given `t`: below 8 ulp for
-    /// 99 % of rays, 64 for 99.99 %; of product densities at the very ends of the interval, where they may vanish, 14 and
-    /// 128, of product-3 next to the emitter 9 and 64, with `abs(g)` near 1 there 8 and 128, and of product densities on
-    /// arbitrary bits 10 for 99 % and no promise for 99.99 %. A density of less than a thousandth of `1/(t_b - t_a)`, its mean over the sampled interval, has errors
-    /// in ulp of that; one below f32's range is 0.
+    /// two agree within 1e-5, next to the emitter that of `sample` is the exact one.
+    ///
+    /// | error at a given `t`, in ulp | 99 % of rays | 99.99 % |
+    /// |---|---|---|
+    /// | all densities, but for what follows | 8 | 64 |
+    /// | product densities at the very ends of the interval, where they may vanish | 14 | 128 |
+    /// | `Product3` next to the emitter | 9 | 64 |
+    /// | `Product3` next to the emitter, with `abs(g)` near 1 | 8 | 128 |
+    /// | product densities on arbitrary bits | 10 | no promise |
+    ///
+    /// The error of a density below a thousandth of `1/(t_b - t_a)`, its mean over the sampled interval, is in ulp of that
+    /// thousandth. A density below f32's range is 0.
     ///
     /// [`Counts::sampled`] counts the rays that have a sample, whether or not it could be at `t`. A NaN in `t` makes
     /// its ray invalid.

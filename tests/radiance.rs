@@ -3,7 +3,7 @@
 
 use airlight::oracle::Scene;
 use airlight::oracle::quadrature::gauss_legendre;
-use airlight::{Counts, Emitter, Emitters, Error, Media, Medium, Ray, Rays, Sampler, Strategy};
+use airlight::{Backend, Counts, Emitter, Emitters, Error, Media, Medium, Ray, Rays, Sampler, Strategy};
 use airlight_tools::errors::{beyond_f32, quantile};
 use airlight_tools::families::{Case, Columns, Family};
 use glam::Vec3;
@@ -49,11 +49,11 @@ fn bounds(family: Family) -> [Bounds; 4] {
     }
 }
 
-fn estimates(strategy: Strategy, cases: &[Case]) -> (Vec<f32>, Counts) {
+fn estimates(sampler: &Sampler, cases: &[Case]) -> (Vec<f32>, Counts) {
     let columns = Columns::new(cases);
     let mut estimates = vec![f32::NAN; cases.len()];
     let (rays, emitters, media) = (columns.rays(), columns.emitters(), columns.media());
-    let counts = Sampler::new(strategy).radiance(&rays, &emitters, &media, &mut estimates).unwrap();
+    let counts = sampler.radiance(&rays, &emitters, &media, &mut estimates).unwrap();
     (estimates, counts)
 }
 
@@ -77,7 +77,7 @@ fn the_estimate_is_near_the_radiance_in_every_family() {
     for (family, seed) in Family::ALL.into_iter().flat_map(|family| SEEDS.map(|seed| (family, seed))) {
         let (cases, scenes) = cases(family, seed, RAYS);
         for (strategy, bounds) in PRODUCTS.into_iter().zip(bounds(family)) {
-            let (estimates, _) = estimates(strategy, &cases);
+            let (estimates, _) = estimates(&Sampler::new(strategy), &cases);
             let mut errors = Vec::new();
             for ((case, scene), &estimate) in cases.iter().zip(&scenes).zip(&estimates) {
                 assert!(estimate.is_finite() && estimate >= 0.0, "{strategy}, seed {seed}: {estimate} of {case:?}");
@@ -186,19 +186,22 @@ fn every_ray_is_counted() {
     let (cases, scenes) = cases(Family::Generic, 8, RAYS);
     let lit = scenes.iter().flatten().filter(|(_, radiance)| *radiance > 0.0).count();
     for strategy in PRODUCTS {
-        let (_, counts) = estimates(strategy, &cases);
+        let (_, counts) = estimates(&Sampler::new(strategy), &cases);
         assert_eq!((counts.sampled, counts.empty), (lit, RAYS - lit), "{strategy}");
     }
 }
 
 #[test]
 fn any_number_of_rays() {
-    let (cases, _) = cases(Family::Generic, 8, 71);
-    let all = estimates(Strategy::Product5, &cases).0;
-    for n in 0..cases.len() {
-        let (few, counts) = estimates(Strategy::Product5, &cases[..n]);
-        assert_eq!(few, all[..n], "{n} rays");
-        assert_eq!(counts.sampled + counts.empty + counts.invalid, n);
+    let (cases, _) = cases(Family::Generic, 8, 96);
+    for backend in Backend::available() {
+        let sampler = Sampler::new(Strategy::Product5).with_backend(backend);
+        let all = estimates(&sampler, &cases).0;
+        for n in 0..cases.len() {
+            let (few, counts) = estimates(&sampler, &cases[..n]);
+            assert_eq!(few, all[..n], "{n} rays, {backend:?}");
+            assert_eq!(counts.sampled + counts.empty + counts.invalid, n);
+        }
     }
 }
 

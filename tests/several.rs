@@ -2,7 +2,7 @@
 
 mod scenes;
 
-use airlight::{Counts, Error, Sampler, Samples, Strategy};
+use airlight::{Backend, Counts, Error, Sampler, Samples, Strategy};
 use airlight_tools::families::{Case, Columns, Family};
 use scenes::Random;
 
@@ -21,7 +21,9 @@ fn sum(all: impl Iterator<Item = Counts>) -> Counts {
 #[test]
 fn they_are_those_of_one_each() {
     // Many rays, and so few that they do not fill the lanes but with their variates.
-    for (n, per_ray) in [(RAYS, 2), (RAYS, 3), (RAYS, 8), (1, 33), (1, 5000), (5, 33), (31, 100), (37, 7)] {
+    for (n, per_ray) in
+        [(RAYS, 2), (RAYS, 3), (RAYS, 8), (1, 7), (1, 33), (1, 5000), (2, 1500), (5, 33), (31, 100), (33, 40), (37, 7)]
+    {
         let columns = columns(n);
         let (rays, emitters, media) = (columns.rays(), columns.emitters(), columns.media());
         let mut random = Random::new(7);
@@ -56,7 +58,43 @@ fn they_are_those_of_one_each() {
     }
 }
 
-/// Nothing is lost where a kernel's tally is settled in between.
+/// A few rays, with so many variates that they do not fill the lanes or fill them again and again, on lane groups of every
+/// width: as in a batch of one variate each that fills all lanes.
+#[test]
+fn few_rays_on_every_backend() {
+    const SHAPES: [(usize, usize); 11] =
+        [(1, 1), (1, 5), (1, 16), (1, 33), (2, 3), (7, 1), (9, 40), (20, 3), (33, 1), (35, 2), (40, 70)];
+    for backend in Backend::available() {
+        for (n, per_ray) in SHAPES {
+            let values = n * per_ray;
+            let case = |i: usize| Family::ALL[i % Family::ALL.len()].case(6, i as u64);
+            let few: Vec<Case> = (0..n).map(case).collect();
+            let mut many: Vec<Case> = (0..values.next_multiple_of(32)).map(|i| few[i / per_ray % n]).collect();
+            let mut random = Random::new(9);
+            many.iter_mut().for_each(|case| case.u = random.uniform());
+            let (few, many) = (Columns::new(&few), Columns::new(&many));
+            for strategy in [Strategy::EquiAngular, Strategy::TaylorPhase, Strategy::Product5] {
+                let sampler = Sampler::new(strategy).with_backend(backend);
+                let sample = |columns: &Columns, u: &[f32]| {
+                    let [mut t, mut pdf] = [(); 2].map(|()| vec![f32::NAN; u.len()]);
+                    let mut samples = Samples { t: &mut t, pdf: &mut pdf, weight: None, r: None };
+                    let (rays, emitters, media) = (columns.rays(), columns.emitters(), columns.media());
+                    let counts = sampler.sample(&rays, &emitters, &media, u, &mut samples).unwrap();
+                    (counts, [t, pdf].map(|column| column.iter().map(|x| x.to_bits()).collect::<Vec<_>>()))
+                };
+                let (counts, found) = sample(&few, &many.u[..values]);
+                let (_, expected) = sample(&many, &many.u);
+                let place = format!("{strategy}, {backend:?}, {n} rays with {per_ray}, seed 9");
+                assert_eq!(found, expected.map(|column| column[..values].to_vec()), "{place}");
+                assert_eq!(counts.sampled + counts.empty + counts.invalid, values, "{place}");
+                let least = found[1].iter().filter(|pdf| **pdf > 0).count();
+                assert!(counts.sampled >= least, "{place}: {counts:?}, {least} written");
+            }
+        }
+    }
+}
+
+/// Nothing is lost where the variates of a ray are cut into chunks.
 #[test]
 fn any_number_is_counted() {
     let per_ray = 3 * (1 << 16) + 5;

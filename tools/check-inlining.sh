@@ -12,15 +12,15 @@ if ! command -v objdump > /dev/null; then
 fi
 
 objdump --disassemble --demangle --no-show-raw-insn "$binary" | awk '
-    # A function begins. Kernels are inlined into these two: one for each set of instructions, one for "portable".
+    # A function begins. Kernels are inlined into these, one for each set of instructions.
     /^[0-9a-f]+ <.*>:$/ {
         name = $0
         sub(/^[0-9a-f]+ </, "", name)
         sub(/>:$/, "", name)
         isa = ""
-        if (name ~ /Avx2.*::vectorize::inner/) isa = "avx2"
-        if (name ~ /Avx512.*::vectorize::inner/) isa = "avx512"
-        if (name ~ /simd::Backend.*::run/) isa = "portable"
+        if (name ~ /::avx2::Home.*::vectorized/) isa = "avx2"
+        if (name ~ /::avx512::Home.*::vectorized/) isa = "avx512"
+        if (name ~ /::simd::Home.*::portable/) isa = "portable"
         if (isa != "") { kernels[isa]++ }
     }
     isa == "" { next }
@@ -30,14 +30,13 @@ objdump --disassemble --demangle --no-show-raw-insn "$binary" | awk '
     /vfn?m(add|sub)[0-9]+p[sd] .*%ymm/ { wide["avx2"] += isa == "avx2" }
 
     # Direct calls; those to the standard library go through a table. What may be called is what ends the program, what
-    # copies lanes, what collects those of several variates, and a kernel from where it is chosen.
+    # copies lanes, and what collects those of several variates.
     /\tcall +[0-9a-f]+ </ {
         callee = $0
         sub(/.*\tcall +[0-9a-f]+ </, "", callee)
         sub(/>$/, "", callee)
         if (callee ~ /Turn>?::(gather|scatter)$/) next
         if (callee ~ /core::panicking|_index_fail|len_mismatch_fail|mem(cpy|move|set)/) next
-        if (isa == "portable" && callee ~ /::vectorize::inner/) next
         outlined[callee " (called by a kernel of " isa ")"]++
     }
 

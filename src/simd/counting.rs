@@ -3,7 +3,7 @@
 //! A kernel computes more than it is asked for, and the compiler leaves that out: only what a result or a branch depends
 //! on counts.
 
-use super::{Double, Isa, Lanes, Number};
+use super::{Double, Isa, Kernel, Lanes, Machine, Number};
 use crate::limits::Operations;
 use core::cell::RefCell;
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
@@ -86,6 +86,16 @@ impl Counting {
     pub(crate) fn count<R>(work: impl FnOnce(Self) -> R) -> Operations {
         work(Self(()));
         TAPE.with_borrow_mut(Tape::needed)
+    }
+}
+
+impl Machine for Counting {
+    fn lanes(self) -> usize {
+        <Self as Isa>::V::N
+    }
+
+    fn run<K: Kernel>(self, kernel: K) -> K::Output {
+        kernel.run(self)
     }
 }
 

@@ -6,7 +6,7 @@
 use super::{Double, Isa, Lanes, Number};
 
 /// The polynomial with coefficients `c`, highest degree first.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 pub(crate) fn horner<I: Isa, const K: usize>(isa: I, x: I::V, c: [f32; K]) -> I::V {
     let mut p = isa.splat(c[0]);
     let mut k = 1;
@@ -18,7 +18,7 @@ pub(crate) fn horner<I: Isa, const K: usize>(isa: I, x: I::V, c: [f32; K]) -> I:
 }
 
 /// The same in double precision.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 pub(crate) fn horner_double<I: Isa, const K: usize>(isa: I, x: I::Double, c: [f64; K]) -> I::Double {
     let mut p = isa.splat_double(c[0]);
     let mut k = 1;
@@ -30,7 +30,7 @@ pub(crate) fn horner_double<I: Isa, const K: usize>(isa: I, x: I::Double, c: [f6
 }
 
 /// The polynomial with the given coefficients in each lane, from degree 0 on.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 pub(crate) fn horner_lanes<V: Number, const K: usize>(x: V, c: [V; K]) -> V {
     let mut p = c[K - 1];
     let mut k = K - 1;
@@ -43,7 +43,7 @@ pub(crate) fn horner_lanes<V: Number, const K: usize>(x: V, c: [V; K]) -> V {
 
 /// The angle of the point `(x, y)`, in `[0, pi]`, for `y >= 0`, not both 0. Max error 1.4 ulp, where `y/x` is
 /// exact; what rounds the quotient comes on top.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 pub(crate) fn angle_of<I: Isa>(isa: I, y: I::V, x: I::V) -> I::V {
     let c = |v| isa.splat(v);
     let size = x.abs();
@@ -77,7 +77,7 @@ const PI_2_HIGH: f32 = core::f32::consts::FRAC_PI_2;
 const PI_2_LOW: f32 = -4.371_139e-8;
 
 /// `(sin x, cos x)` for `x` in `[0, pi/2]`. Max error 2.1 ulp of sin, 1.5e-7 of cos.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 pub(crate) fn sin_cos<I: Isa>(isa: I, x: I::V) -> (I::V, I::V) {
     let z = x * x;
     let sin = (x * z).mul_add(horner(isa, z, SIN), x);
@@ -91,7 +91,7 @@ pub(crate) const SIN: [f32; 4] = [2.605_779_2e-6, -1.980_960_2e-4, 8.333_066e-3,
 const COS: [f32; 5] = [-2.607_711_2e-7, 2.476_188_6e-5, -1.388_840_4e-3, 4.166_664e-2, -0.5];
 
 /// `tan x` for `x` in `[0, pi/4]`. Max error 1.5 ulp.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 pub(crate) fn tan<I: Isa>(isa: I, x: I::V) -> I::V {
     let z = x * x;
     let p = horner(isa, z, [9.385_594e-3, 3.119_593_7e-3, 2.443_034_2e-2, 5.341_122_3e-2, 1.333_88e-1, 3.333_315_6e-1]);
@@ -99,7 +99,7 @@ pub(crate) fn tan<I: Isa>(isa: I, x: I::V) -> I::V {
 }
 
 /// `exp x` for `x <= 0`, rounded from double precision; 0 below -87.3. Max error 1.1 ulp.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 pub(crate) fn exp<I: Isa>(isa: I, x: I::Double) -> I::V {
     let c = |v| isa.splat(v);
     let x = x.max(isa.splat_double(-104.0));
@@ -110,20 +110,20 @@ pub(crate) fn exp<I: Isa>(isa: I, x: I::Double) -> I::V {
 }
 
 /// `1/x` in f64 by a Newton step, for `x` in `[2^-100, 2^100]`. Max error 1e-14, relative.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 pub(crate) fn reciprocal<I: Isa>(isa: I, x: I::Double) -> I::Double {
     reciprocal_near(isa, x, (isa.splat(1.0) / I::V::narrow(x)).widen())
 }
 
 /// The same from what an f32 division gives.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 pub(crate) fn reciprocal_near<I: Isa>(isa: I, x: I::Double, near: I::Double) -> I::Double {
     near * (isa.splat_double(2.0) - x * near)
 }
 
 /// `(1 - exp(-x), exp(-x))` for `x >= 0`. Max error 1.2 ulp of the former, 1.1 ulp of the latter, which is 0 beyond
 /// 87.3.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 pub(crate) fn one_minus_exp<I: Isa>(isa: I, x: I::V) -> (I::V, I::V) {
     let c = |v| isa.splat(v);
     let x = x.min(c(104.0));
@@ -136,21 +136,21 @@ pub(crate) fn one_minus_exp<I: Isa>(isa: I, x: I::V) -> (I::V, I::V) {
 }
 
 /// `exp f - 1` for `|f| <= ln 2 / 2`.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 fn exp_m1_reduced<I: Isa>(isa: I, f: I::V) -> I::V {
     let p = horner(isa, f, [1.394_714_7e-3, 8.367_008e-3, 4.166_627_7e-2, 1.666_654e-1, 0.5]);
     (f * f).mul_add(p, f)
 }
 
 /// The nearest integer, for `|x| < 2^22`.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 fn round<I: Isa>(isa: I, x: I::V) -> I::V {
     let shift = isa.splat(12_582_912.0);
     (x + shift) - shift
 }
 
 /// `-ln(1 - x)` for `x` in `[0, 1]`, given also `y = 1 - x` as exactly as it is known. Max error 2.7 ulp.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 pub(crate) fn neg_ln_1m<I: Isa>(isa: I, x: I::V, y: I::V) -> I::V {
     let c = |v| isa.splat(v);
     let (m, e) = y.max(c(f32::MIN_POSITIVE)).split();

@@ -1,6 +1,8 @@
 //! Lane groups: the vector operations that the kernels need, for each instruction set.
 //!
 //! A kernel is written once, generic over [`Isa`]; an instruction set is a thin binding of [`Lanes`] and [`Double`].
+//!
+//! The unit tests run no kernel: they are built without those of x86-64, which take most of the time.
 
 #[cfg(feature = "measure")]
 pub(crate) mod counting;
@@ -9,9 +11,9 @@ mod pair;
 mod portable;
 #[cfg(feature = "measure")]
 mod scalar;
-#[cfg(target_arch = "x86_64")]
+#[cfg(all(target_arch = "x86_64", not(test)))]
 mod two;
-#[cfg(target_arch = "x86_64")]
+#[cfg(all(target_arch = "x86_64", not(test)))]
 mod x86;
 
 pub(crate) use portable::Portable;
@@ -31,8 +33,8 @@ pub(crate) trait Number:
 
 /// A group of `f32` lanes, one ray each.
 ///
-/// Every method is `#[inline(always)]`, so that it takes on the target features of the function it ends up in. No
-/// method moves a value from one lane to another: what a lane computes depends on that lane alone.
+/// Every method is inlined where the build is optimised, so that it takes on the target features of the function it ends
+/// up in. No method moves a value from one lane to another: what a lane computes depends on that lane alone.
 pub(crate) trait Lanes: Number + Div<Output = Self> {
     /// One truth value per lane.
     type Mask: Copy + BitAnd<Output = Self::Mask> + BitOr<Output = Self::Mask> + Not<Output = Self::Mask>;
@@ -65,7 +67,7 @@ pub(crate) trait Lanes: Number + Div<Output = Self> {
     /// The coefficients of the product of two polynomials, from degree 0 on; `R = P + Q - 1`.
     ///
     /// At any time only `P` sums are open, so `p` is the shorter one: all of them at once do not fit the registers.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn multiply<const P: usize, const Q: usize, const R: usize>(p: &[Self; P], q: &[Self; Q]) -> [Self; R] {
         const { assert!(R + 1 == P + Q) };
         let mut open = *p;
@@ -114,7 +116,7 @@ pub(crate) trait Isa: Copy {
 }
 
 /// No lane.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 pub(crate) fn none<I: Isa>(isa: I) -> I::Mask {
     // In a form that compilers see to be constant.
     let mask = isa.splat(1.0).lt(isa.splat(0.0));
@@ -124,9 +126,28 @@ pub(crate) fn none<I: Isa>(isa: I) -> I::Mask {
 /// Code that is written once and run by one of several instruction sets.
 pub(crate) trait Kernel {
     type Output;
-    /// Must be `#[inline(always)]`, like all that it calls.
+    /// A type whose module the machine code belongs to: compilers make one unit of a module, and several units at a time.
+    type Home;
+    /// Inlined where the build is optimised, like all that it calls.
     fn run<I: Isa>(self, isa: I) -> Self::Output;
 }
+
+/// What runs kernels.
+pub(crate) trait Machine: Copy {
+    /// How many lanes a group has.
+    fn lanes(self) -> usize;
+    fn run<K: Kernel>(self, kernel: K) -> K::Output;
+}
+
+/// Where the machine code of the portable kernels is.
+trait Home: Sized {
+    #[inline(never)]
+    fn portable<K: Kernel<Home = Self>>(kernel: K) -> K::Output {
+        kernel.run(Portable)
+    }
+}
+
+impl<T> Home for T {}
 
 /// An instruction set that this CPU has: there is no other way to one than [`available`](Self::available).
 ///
@@ -137,13 +158,11 @@ pub struct Backend(Kind);
 
 #[derive(Clone, Copy, Debug)]
 enum Kind {
-    #[cfg(target_arch = "x86_64")]
+    #[cfg(all(target_arch = "x86_64", not(test)))]
     Avx512(x86::Avx512),
-    #[cfg(target_arch = "x86_64")]
+    #[cfg(all(target_arch = "x86_64", not(test)))]
     Avx2(x86::Avx2),
     Portable,
-    #[cfg(all(target_arch = "x86_64", feature = "measure"))]
-    Avx2Single(x86::Avx2),
     #[cfg(feature = "measure")]
     Scalar,
 }
@@ -151,16 +170,14 @@ enum Kind {
 impl Backend {
     /// Every backend that this CPU can run, the fastest first.
     ///
-    /// With the feature `measure`, after these, also `avx2-single`, where lane groups do not come in pairs, and `scalar`, one lane.
+    /// With the feature `measure`, after these, also `scalar`: one lane, to compare with.
     pub fn available() -> impl Iterator<Item = Self> {
         [
-            #[cfg(target_arch = "x86_64")]
+            #[cfg(all(target_arch = "x86_64", not(test)))]
             x86::Avx512::detect().map(Kind::Avx512),
-            #[cfg(target_arch = "x86_64")]
+            #[cfg(all(target_arch = "x86_64", not(test)))]
             x86::Avx2::detect().map(Kind::Avx2),
             Some(Kind::Portable),
-            #[cfg(all(target_arch = "x86_64", feature = "measure"))]
-            x86::Avx2::detect().map(Kind::Avx2Single),
             #[cfg(feature = "measure")]
             Some(Kind::Scalar),
         ]
@@ -179,13 +196,11 @@ impl Backend {
     #[must_use]
     pub fn name(self) -> &'static str {
         match self.0 {
-            #[cfg(target_arch = "x86_64")]
+            #[cfg(all(target_arch = "x86_64", not(test)))]
             Kind::Avx512(_) => "avx512",
-            #[cfg(target_arch = "x86_64")]
+            #[cfg(all(target_arch = "x86_64", not(test)))]
             Kind::Avx2(_) => "avx2",
             Kind::Portable => "portable",
-            #[cfg(all(target_arch = "x86_64", feature = "measure"))]
-            Kind::Avx2Single(_) => "avx2-single",
             #[cfg(feature = "measure")]
             Kind::Scalar => "scalar",
         }
@@ -197,29 +212,48 @@ impl Backend {
     pub fn is_fused(self) -> bool {
         match self.0 {
             Kind::Portable => cfg!(all(target_arch = "x86_64", target_feature = "fma")),
-            #[cfg(any(target_arch = "x86_64", feature = "measure"))]
+            #[cfg(any(all(target_arch = "x86_64", not(test)), feature = "measure"))]
             _ => true,
+        }
+    }
+}
+
+impl Machine for Backend {
+    fn lanes(self) -> usize {
+        fn of<I: Isa>(_: I) -> usize {
+            I::V::N
+        }
+        match self.0 {
+            #[cfg(all(target_arch = "x86_64", not(test)))]
+            Kind::Avx512(proof) => of(two::Two(proof)),
+            #[cfg(all(target_arch = "x86_64", not(test)))]
+            Kind::Avx2(proof) => of(two::Two(proof)),
+            Kind::Portable => of(Portable),
+            #[cfg(feature = "measure")]
+            Kind::Scalar => of(scalar::Scalar),
         }
     }
 
     /// Runs `kernel` with these instructions on.
-    pub(crate) fn run<K: Kernel>(self, kernel: K) -> K::Output {
+    fn run<K: Kernel>(self, kernel: K) -> K::Output {
         match self.0 {
-            #[cfg(target_arch = "x86_64")]
+            #[cfg(all(target_arch = "x86_64", not(test)))]
             Kind::Avx512(proof) => proof.vectorize(kernel, two::Two(proof)),
-            #[cfg(target_arch = "x86_64")]
+            #[cfg(all(target_arch = "x86_64", not(test)))]
             Kind::Avx2(proof) => proof.vectorize(kernel, two::Two(proof)),
-            Kind::Portable => kernel.run(Portable),
-            #[cfg(all(target_arch = "x86_64", feature = "measure"))]
-            Kind::Avx2Single(proof) => proof.vectorize(kernel, proof),
-            // With FMA in the CPU its `mul_add` is an instruction instead of a call.
-            #[cfg(all(target_arch = "x86_64", feature = "measure"))]
-            Kind::Scalar => match x86::Avx2::detect() {
-                Some(proof) => proof.vectorize(kernel, scalar::Scalar),
-                None => kernel.run(scalar::Scalar),
-            },
-            #[cfg(all(not(target_arch = "x86_64"), feature = "measure"))]
-            Kind::Scalar => kernel.run(scalar::Scalar),
+            Kind::Portable => K::Home::portable(kernel),
+            #[cfg(feature = "measure")]
+            Kind::Scalar => on_one_lane(kernel),
         }
     }
+}
+
+/// With FMA in the CPU `mul_add` of one lane is an instruction instead of a call.
+#[cfg(feature = "measure")]
+fn on_one_lane<K: Kernel>(kernel: K) -> K::Output {
+    #[cfg(all(target_arch = "x86_64", not(test)))]
+    if let Some(proof) = x86::Avx2::detect() {
+        return proof.vectorize(kernel, scalar::Scalar);
+    }
+    kernel.run(scalar::Scalar)
 }

@@ -11,7 +11,7 @@ macro_rules! binary_op {
     ($($Op:ident $op:ident)*) => {$(
         impl<T: $Op<Output = T>> $Op for Pair<T> {
             type Output = Self;
-            #[inline(always)]
+            #[inline]
             fn $op(self, o: Self) -> Self {
                 Self(self.0.$op(o.0), self.1.$op(o.1))
             }
@@ -22,7 +22,7 @@ binary_op!(Add add Sub sub Mul mul Div div BitAnd bitand BitOr bitor);
 
 impl<T: Neg<Output = T>> Neg for Pair<T> {
     type Output = Self;
-    #[inline(always)]
+    #[inline]
     fn neg(self) -> Self {
         Self(-self.0, -self.1)
     }
@@ -30,25 +30,25 @@ impl<T: Neg<Output = T>> Neg for Pair<T> {
 
 impl<T: Not<Output = T>> Not for Pair<T> {
     type Output = Self;
-    #[inline(always)]
+    #[inline]
     fn not(self) -> Self {
         Self(!self.0, !self.1)
     }
 }
 
 impl<T: Number> Number for Pair<T> {
-    #[inline(always)]
+    #[inline]
     fn mul_add(self, m: Self, a: Self) -> Self {
         Self(self.0.mul_add(m.0, a.0), self.1.mul_add(m.1, a.1))
     }
 }
 
 impl<D: Double> Double for Pair<D> {
-    #[inline(always)]
+    #[inline]
     fn min(self, o: Self) -> Self {
         Self(self.0.min(o.0), self.1.min(o.1))
     }
-    #[inline(always)]
+    #[inline]
     fn max(self, o: Self) -> Self {
         Self(self.0.max(o.0), self.1.max(o.1))
     }
@@ -59,61 +59,61 @@ impl<V: Lanes> Lanes for Pair<V> {
     type Double = Pair<V::Double>;
     const N: usize = 2 * V::N;
 
-    #[inline(always)]
+    #[inline]
     fn sqrt(self) -> Self {
         Self(self.0.sqrt(), self.1.sqrt())
     }
-    #[inline(always)]
+    #[inline]
     fn abs(self) -> Self {
         Self(self.0.abs(), self.1.abs())
     }
-    #[inline(always)]
+    #[inline]
     fn min(self, o: Self) -> Self {
         Self(self.0.min(o.0), self.1.min(o.1))
     }
-    #[inline(always)]
+    #[inline]
     fn max(self, o: Self) -> Self {
         Self(self.0.max(o.0), self.1.max(o.1))
     }
-    #[inline(always)]
+    #[inline]
     fn lt(self, o: Self) -> Self::Mask {
         Pair(self.0.lt(o.0), self.1.lt(o.1))
     }
-    #[inline(always)]
+    #[inline]
     fn le(self, o: Self) -> Self::Mask {
         Pair(self.0.le(o.0), self.1.le(o.1))
     }
-    #[inline(always)]
+    #[inline]
     fn eq(self, o: Self) -> Self::Mask {
         Pair(self.0.eq(o.0), self.1.eq(o.1))
     }
-    #[inline(always)]
+    #[inline]
     fn select(m: Self::Mask, yes: Self, no: Self) -> Self {
         Self(V::select(m.0, yes.0, no.0), V::select(m.1, yes.1, no.1))
     }
-    #[inline(always)]
+    #[inline]
     fn bits(m: Self::Mask) -> u32 {
         V::bits(m.0) | V::bits(m.1) << V::N
     }
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn pow2(self) -> Self {
         Self(self.0.pow2(), self.1.pow2())
     }
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn split(self) -> (Self, Self) {
         let ((m_0, e_0), (m_1, e_1)) = (self.0.split(), self.1.split());
         (Self(m_0, m_1), Self(e_0, e_1))
     }
-    #[inline(always)]
+    #[inline]
     fn widen(self) -> Self::Double {
         Pair(self.0.widen(), self.1.widen())
     }
-    #[inline(always)]
+    #[inline]
     fn narrow(d: Self::Double) -> Self {
         Self(V::narrow(d.0), V::narrow(d.1))
     }
     // One of the two and then the other: the factors of both do not fit the registers either.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn multiply<const P: usize, const Q: usize, const R: usize>(p: &[Self; P], q: &[Self; Q]) -> [Self; R] {
         let (p_0, p_1) = apart(p);
         let (q_0, q_1) = apart(q);
@@ -129,7 +129,7 @@ impl<V: Lanes> Lanes for Pair<V> {
 }
 
 /// The firsts and the seconds.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 fn apart<T: Copy, const K: usize>(pairs: &[Pair<T>; K]) -> ([T; K], [T; K]) {
     let (mut low, mut high) = ([pairs[0].0; K], [pairs[0].1; K]);
     let mut k = 1;

@@ -15,34 +15,34 @@ impl Isa for Portable {
     type Double = Pair<f64x4>;
     type Group = [f32; 8];
 
-    #[inline(always)]
+    #[inline]
     fn splat(self, x: f32) -> f32x8 {
         f32x8::splat(x)
     }
-    #[inline(always)]
+    #[inline]
     fn splat_double(self, x: f64) -> Pair<f64x4> {
         Pair(f64x4::splat(x), f64x4::splat(x))
     }
-    #[inline(always)]
+    #[inline]
     fn groups(column: &[f32]) -> &[[f32; 8]] {
         column.as_chunks().0
     }
-    #[inline(always)]
+    #[inline]
     fn groups_mut(column: &mut [f32]) -> &mut [[f32; 8]] {
         column.as_chunks_mut().0
     }
-    #[inline(always)]
+    #[inline]
     fn load(self, group: &[f32; 8]) -> f32x8 {
         f32x8::new(*group)
     }
-    #[inline(always)]
+    #[inline]
     fn store(self, lanes: f32x8, group: &mut [f32; 8]) {
         *group = lanes.to_array();
     }
 }
 
 impl Number for f32x8 {
-    #[inline(always)]
+    #[inline]
     fn mul_add(self, m: Self, a: Self) -> Self {
         f32x8::mul_add(self, m, a)
     }
@@ -53,55 +53,55 @@ impl Lanes for f32x8 {
     type Double = Pair<f64x4>;
     const N: usize = 8;
 
-    #[inline(always)]
+    #[inline]
     fn sqrt(self) -> Self {
         f32x8::sqrt(self)
     }
-    #[inline(always)]
+    #[inline]
     fn abs(self) -> Self {
         f32x8::abs(self)
     }
-    #[inline(always)]
+    #[inline]
     fn min(self, o: Self) -> Self {
         self.fast_min(o)
     }
-    #[inline(always)]
+    #[inline]
     fn max(self, o: Self) -> Self {
         self.fast_max(o)
     }
-    #[inline(always)]
+    #[inline]
     fn lt(self, o: Self) -> f32x8 {
         self.simd_lt(o)
     }
-    #[inline(always)]
+    #[inline]
     fn le(self, o: Self) -> f32x8 {
         self.simd_le(o)
     }
-    #[inline(always)]
+    #[inline]
     fn eq(self, o: Self) -> f32x8 {
         self.simd_eq(o)
     }
-    #[inline(always)]
+    #[inline]
     fn select(m: f32x8, yes: Self, no: Self) -> Self {
         m.bitselect(yes, no)
     }
-    #[inline(always)]
+    #[inline]
     fn bits(m: f32x8) -> u32 {
         m.to_bitmask()
     }
-    #[inline(always)]
+    #[inline]
     fn pow2(self) -> Self {
         // Adding 1.5 * 2^23 leaves the integer in the low bits of the significand.
         let n: i32x8 = cast(self + f32x8::splat(12_582_912.0));
         cast((n + i32x8::splat(127)) << 23)
     }
-    #[inline(always)]
+    #[inline]
     fn split(self) -> (Self, Self) {
         let bits: i32x8 = cast(self);
         let exponent = (bits - i32x8::splat(0x3f35_04f3)) >> 23;
         (cast(bits - (exponent << 23)), f32x8::from_i32x8(exponent))
     }
-    #[inline(always)]
+    #[inline]
     fn widen(self) -> Pair<f64x4> {
         let [a, b, c, d, e, f, g, h] = self.to_array();
         Pair(
@@ -109,7 +109,7 @@ impl Lanes for f32x8 {
             f64x4::new([f64::from(e), f64::from(f), f64::from(g), f64::from(h)]),
         )
     }
-    #[inline(always)]
+    #[inline]
     fn narrow(x: Pair<f64x4>) -> Self {
         let [a, b, c, d] = x.0.to_array();
         let [e, f, g, h] = x.1.to_array();
@@ -118,18 +118,18 @@ impl Lanes for f32x8 {
 }
 
 impl Number for f64x4 {
-    #[inline(always)]
+    #[inline]
     fn mul_add(self, m: Self, a: Self) -> Self {
         f64x4::mul_add(self, m, a)
     }
 }
 
 impl Double for f64x4 {
-    #[inline(always)]
+    #[inline]
     fn min(self, o: Self) -> Self {
         self.fast_min(o)
     }
-    #[inline(always)]
+    #[inline]
     fn max(self, o: Self) -> Self {
         self.fast_max(o)
     }

@@ -12,34 +12,34 @@ impl Isa for Scalar {
     type Double = f64;
     type Group = f32;
 
-    #[inline(always)]
+    #[inline]
     fn splat(self, x: f32) -> f32 {
         x
     }
-    #[inline(always)]
+    #[inline]
     fn splat_double(self, x: f64) -> f64 {
         x
     }
-    #[inline(always)]
+    #[inline]
     fn groups(column: &[f32]) -> &[f32] {
         column
     }
-    #[inline(always)]
+    #[inline]
     fn groups_mut(column: &mut [f32]) -> &mut [f32] {
         column
     }
-    #[inline(always)]
+    #[inline]
     fn load(self, group: &f32) -> f32 {
         *group
     }
-    #[inline(always)]
+    #[inline]
     fn store(self, lanes: f32, group: &mut f32) {
         *group = lanes;
     }
 }
 
 impl Number for f32 {
-    #[inline(always)]
+    #[inline]
     fn mul_add(self, m: Self, a: Self) -> Self {
         f32::mul_add(self, m, a)
     }
@@ -50,75 +50,75 @@ impl Lanes for f32 {
     type Double = f64;
     const N: usize = 1;
 
-    #[inline(always)]
+    #[inline]
     fn sqrt(self) -> Self {
         f32::sqrt(self)
     }
-    #[inline(always)]
+    #[inline]
     fn abs(self) -> Self {
         f32::abs(self)
     }
-    #[inline(always)]
+    #[inline]
     fn min(self, o: Self) -> Self {
         if self < o { self } else { o }
     }
-    #[inline(always)]
+    #[inline]
     fn max(self, o: Self) -> Self {
         if self > o { self } else { o }
     }
-    #[inline(always)]
+    #[inline]
     fn lt(self, o: Self) -> bool {
         self < o
     }
-    #[inline(always)]
+    #[inline]
     fn le(self, o: Self) -> bool {
         self <= o
     }
-    #[inline(always)]
+    #[inline]
     fn eq(self, o: Self) -> bool {
         self == o
     }
-    #[inline(always)]
+    #[inline]
     fn select(m: bool, yes: Self, no: Self) -> Self {
         if m { yes } else { no }
     }
-    #[inline(always)]
+    #[inline]
     fn bits(m: bool) -> u32 {
         m.into()
     }
-    #[inline(always)]
+    #[inline]
     fn pow2(self) -> Self {
         f32::from_bits(((self + 12_582_912.0).to_bits().wrapping_add(127)) << 23)
     }
-    #[inline(always)]
+    #[inline]
     fn split(self) -> (Self, Self) {
         let bits = self.to_bits() as i32;
         let exponent = bits.wrapping_sub(0x3f35_04f3) >> 23;
         (f32::from_bits(bits.wrapping_sub(exponent << 23) as u32), exponent as f32)
     }
-    #[inline(always)]
+    #[inline]
     fn widen(self) -> f64 {
         self.into()
     }
-    #[inline(always)]
+    #[inline]
     fn narrow(d: f64) -> Self {
         d as f32
     }
 }
 
 impl Number for f64 {
-    #[inline(always)]
+    #[inline]
     fn mul_add(self, m: Self, a: Self) -> Self {
         f64::mul_add(self, m, a)
     }
 }
 
 impl Double for f64 {
-    #[inline(always)]
+    #[inline]
     fn min(self, o: Self) -> Self {
         if self < o { self } else { o }
     }
-    #[inline(always)]
+    #[inline]
     fn max(self, o: Self) -> Self {
         if self > o { self } else { o }
     }

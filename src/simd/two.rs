@@ -14,27 +14,27 @@ impl<I: Isa> Isa for Two<I> {
     type Double = Pair<I::Double>;
     type Group = [I::Group; 2];
 
-    #[inline(always)]
+    #[inline]
     fn splat(self, x: f32) -> Self::V {
         Pair(self.0.splat(x), self.0.splat(x))
     }
-    #[inline(always)]
+    #[inline]
     fn splat_double(self, x: f64) -> Self::Double {
         Pair(self.0.splat_double(x), self.0.splat_double(x))
     }
-    #[inline(always)]
+    #[inline]
     fn groups(column: &[f32]) -> &[[I::Group; 2]] {
         I::groups(column).as_chunks().0
     }
-    #[inline(always)]
+    #[inline]
     fn groups_mut(column: &mut [f32]) -> &mut [[I::Group; 2]] {
         I::groups_mut(column).as_chunks_mut().0
     }
-    #[inline(always)]
+    #[inline]
     fn load(self, [low, high]: &[I::Group; 2]) -> Self::V {
         Pair(self.0.load(low), self.0.load(high))
     }
-    #[inline(always)]
+    #[inline]
     fn store(self, lanes: Self::V, [low, high]: &mut [I::Group; 2]) {
         self.0.store(lanes.0, low);
         self.0.store(lanes.1, high);

@@ -1,10 +1,16 @@
 //! `p(theta) = 1/Theta`: uniform in the angle at the emitter, so proportional to `1/r^2`.
 
-use crate::density::{Density, Drawn, Pdf};
+use crate::density::{self, Density, Drawn, Pdf};
 use crate::geometry::{BIAS, Geometry, Point};
 use crate::integrand::MediumLanes;
 use crate::simd::math::tan;
 use crate::simd::{Isa, Lanes, none};
+
+pub(crate) struct Kind;
+
+impl density::Kind for Kind {
+    type On<I: Isa> = EquiAngular<I>;
+}
 
 pub(crate) struct EquiAngular<I: Isa> {
     /// `Theta` \[rad\].
@@ -17,7 +23,7 @@ pub(crate) struct EquiAngular<I: Isa> {
 const WIDEST: f32 = core::f32::consts::FRAC_PI_2 / (0.5 + BIAS);
 
 impl<I: Isa> Density<I> for EquiAngular<I> {
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn new(isa: I, geometry: &Geometry<I>, _: &MediumLanes<I>) -> Self {
         let half = isa.splat(0.5);
         let subtended = geometry.subtended(isa);
@@ -25,7 +31,7 @@ impl<I: Isa> Density<I> for EquiAngular<I> {
         Self { subtended, turn }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn invert(&self, isa: I, geometry: &Geometry<I>, u: I::V) -> Drawn<I> {
         let rest = isa.splat(1.0) - u;
         let from_a = u.le(self.turn);
@@ -35,7 +41,7 @@ impl<I: Isa> Density<I> for EquiAngular<I> {
         Drawn { point, pdf, bisected: none(isa) }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn pdf(&self, isa: I, geometry: &Geometry<I>, point: &Point<I>) -> Pdf<I> {
         Pdf::over_angle(isa.splat(1.0) / self.subtended, geometry, point)
     }

@@ -8,8 +8,6 @@ pub(crate) mod taylor_phase;
 pub(crate) mod taylor_transmittance;
 pub(crate) mod transmittance;
 
-pub(crate) use taylor::Taylor;
-
 use std::fmt;
 use std::str::FromStr;
 

@@ -3,11 +3,17 @@
 //! With `S = alpha sin theta - beta cos theta`, an antiderivative of N, the CDF from an end is `D = S - S_e` over the
 //! mass `S_b - S_a`, and `N^2 = N_e^2 - D (2 S_e + D)`. The angle from that end has `tan(delta/2) = D / (N + N_e)`.
 
-use crate::density::{Density, Drawn, Pdf};
+use crate::density::{self, Density, Drawn, Pdf};
 use crate::geometry::{Geometry, Point};
 use crate::integrand::MediumLanes;
 use crate::simd::math::tan;
 use crate::simd::{Isa, Lanes, Number, none};
+
+pub(crate) struct Kind;
+
+impl density::Kind for Kind {
+    type On<I: Isa> = PointNormal<I>;
+}
 
 pub(crate) struct PointNormal<I: Isa> {
     /// `S` at the ends, counted towards the interval.
@@ -22,13 +28,13 @@ pub(crate) struct PointNormal<I: Isa> {
 /// The integral of N between two angles, given N and S at both and `tan_half` of their difference.
 ///
 /// The product is exact for narrow intervals; `wide` ones, beyond a right angle, take the difference.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 pub(crate) fn mass_of_cosine<I: Isa>(n: [I::V; 2], s: [I::V; 2], tan_half: I::V, wide: I::Mask) -> I::V {
     I::V::select(wide, s[1] - s[0], (n[0] + n[1]) * tan_half)
 }
 
 /// `tan(delta/2)` of the angle from an end within which N has the integral `mass`.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 pub(crate) fn tan_half_at_mass<I: Isa>(isa: I, n_end: I::V, s_end: I::V, mass: I::V) -> I::V {
     let c = |x| isa.splat(x);
     // Of a ray along the emitter's plane they are all so small that their squares leave f32.
@@ -45,7 +51,7 @@ const LARGE: f32 = (1u64 << 60) as f32;
 pub(crate) const NEAREST: f32 = 1e-12;
 
 impl<I: Isa> Density<I> for PointNormal<I> {
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn new(isa: I, geometry: &Geometry<I>, _: &MediumLanes<I>) -> Self {
         let g = geometry;
         let [s_a, s_b] = [g.antiderivative(&g.a), g.antiderivative(&g.b)];
@@ -64,7 +70,7 @@ impl<I: Isa> Density<I> for PointNormal<I> {
         Self { s_a, s_b: -s_b, mass, turn }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn invert(&self, isa: I, geometry: &Geometry<I>, u: I::V) -> Drawn<I> {
         let g = geometry;
         let rest = isa.splat(1.0) - u;
@@ -82,12 +88,12 @@ impl<I: Isa> Density<I> for PointNormal<I> {
         Drawn { point, pdf, bisected: none(isa) }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn lit(isa: I, geometry: &Geometry<I>) -> I::Mask {
         geometry.lit & geometry.bright(isa)
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn pdf(&self, isa: I, geometry: &Geometry<I>, point: &Point<I>) -> Pdf<I> {
         Pdf::over_angle(geometry.cosine(isa, point) / self.mass, geometry, point)
     }

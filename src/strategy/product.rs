@@ -9,6 +9,8 @@
 //! - A line's values at its inner knots are those of the integrand less a twelfth of `width^2 f''`, as least squares would
 //!   have them. At an end, where the integrand may vanish over no length at all, it is drawn through a place inside.
 
+pub(crate) mod knots;
+
 use crate::density::{Density, Drawn, Pdf};
 use crate::geometry::{End, Geometry, Point};
 use crate::integrand::{Lobe, MediumLanes, transmittance};
@@ -128,7 +130,7 @@ impl<I: Isa, const K: usize> Product<I, K> {
     };
 
     /// The line's values at the knots, of the integrand's where it is looked at.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn line(isa: I, geometry: &Geometry<I>, seen: &[I::V; K]) -> [I::V; K] {
         let c = |x| isa.splat(x);
         let mut f = *seen;
@@ -147,7 +149,7 @@ impl<I: Isa, const K: usize> Product<I, K> {
     }
 
     /// The line's value at an end, straight on from the next knot through what is seen inside, or lower.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn extended(isa: I, dark: I::Mask, seen: I::V, next: I::V) -> I::V {
         let c = |x| isa.splat(x);
         let beyond = INSIDE / (1.0 - INSIDE);
@@ -157,7 +159,7 @@ impl<I: Isa, const K: usize> Product<I, K> {
     }
 
     /// The segment for which `beyond(i, C_i)` holds for all `i` up to its start, where `C_i` is the CDF at knot `i`.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn segment(&self, isa: I, beyond: impl Fn(usize, I::V) -> I::Mask) -> (Segment<I>, I::V) {
         let mut below = isa.splat(0.0);
         let mut cdf = below;
@@ -179,14 +181,14 @@ impl<I: Isa, const K: usize> Product<I, K> {
     }
 
     /// The integral of the integrand, as the knots have it \[1/m^2\].
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(crate) fn radiance(&self, isa: I, geometry: &Geometry<I>, medium: &MediumLanes<I>) -> I::V {
         let start = transmittance(isa, geometry, medium, &geometry.start());
         medium.mu_s * start * (medium.lobe.height * self.mass)
     }
 
     /// From a density over `v` where `Y + Y_c = Y_c/s`: `dv/dt = (dv/dY) X/r`.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn pdf_over_v(&self, isa: I, p_v: I::V, s: I::V, x: I::V, r: I::V) -> Pdf<I> {
         // In this order no part of it leaves f32 before the whole does.
         let over_y = (p_v * s) * (s * ((isa.splat(1.0) + self.e) * self.inv_y_c));
@@ -195,7 +197,7 @@ impl<I: Isa, const K: usize> Product<I, K> {
 }
 
 /// `X` at an end without cancellation, and `h/X`, of one division.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 fn x_and_h_over_it<I: Isa>(isa: I, geometry: &Geometry<I>, inv_h: I::V, end: &End<I>) -> (I::V, I::V) {
     let (h, forward) = (geometry.h, isa.splat(0.0).lt(end.t_prime));
     let long = end.r + end.t_prime.abs();
@@ -204,7 +206,7 @@ fn x_and_h_over_it<I: Isa>(isa: I, geometry: &Geometry<I>, inv_h: I::V, end: &En
 }
 
 impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn new(isa: I, geometry: &Geometry<I>, medium: &MediumLanes<I>) -> Self {
         let c = |x| isa.splat(x);
         let (g, one) = (geometry, c(1.0));
@@ -273,7 +275,7 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
         Self { x_a, x_b, h_x_a, h_x_b, y_c, inv_y_c, e, inv_e, w_0, f, mass: I::V::select(usable, mass, c(0.0)) * unit }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn invert(&self, isa: I, geometry: &Geometry<I>, u: I::V) -> Drawn<I> {
         let c = |x| isa.splat(x);
         let (g, one) = (geometry, c(1.0));
@@ -310,14 +312,14 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
         Drawn { point, pdf, bisected: none(isa) }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn lit(isa: I, geometry: &Geometry<I>) -> I::Mask {
         geometry.lit & geometry.bright(isa)
     }
 
     /// In f64, from the geometry to the place between two knots and back: a dozen roundings, which the slope of the density
     /// multiplies, would be most of the error.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn pdf(&self, isa: I, geometry: &Geometry<I>, point: &Point<I>) -> Pdf<I> {
         let c = |x| isa.splat(x);
         let g = geometry;

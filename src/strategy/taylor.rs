@@ -67,7 +67,7 @@ pub(crate) struct Taylor<I: Isa, E> {
 }
 
 impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn new(isa: I, geometry: &Geometry<I>, medium: &MediumLanes<I>) -> Self {
         let c = |x| isa.splat(x);
         let g = geometry;
@@ -139,7 +139,7 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn invert(&self, isa: I, geometry: &Geometry<I>, u: I::V) -> Drawn<I> {
         let c = |x| isa.splat(x);
         let g = geometry;
@@ -160,7 +160,7 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
         let wanted = below & g.lit & g.valid;
         let root = solve(
             isa,
-            #[inline(always)]
+            #[cfg_attr(optimized, inline(always))]
             |x: I::V| {
                 let z = x * x;
                 At {
@@ -204,12 +204,12 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
         Drawn { point, pdf, bisected: root.bisected }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn lit(isa: I, geometry: &Geometry<I>) -> I::Mask {
         geometry.lit & geometry.bright(isa)
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn pdf(&self, isa: I, geometry: &Geometry<I>, point: &Point<I>) -> Pdf<I> {
         let t_prime = I::V::select(self.mirrored, -point.t_prime, point.t_prime);
         self.at(isa, geometry, point, angle(isa, t_prime, geometry.h))
@@ -219,7 +219,7 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
 impl<I: Isa, E> Taylor<I, E> {
     /// Where the CDF of the first piece is about `share` and the integral from its middle `value`: the inverse for a
     /// density linear between -1, 0 and 1, and Newton's method for the quintic.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn first_guess(&self, isa: I, share: I::V, value: I::V) -> I::V {
         let c = |x| isa.splat(x);
         let [f_a, f_m, f_b] = self.three;
@@ -246,7 +246,7 @@ impl<I: Isa, E> Taylor<I, E> {
     }
 
     /// The derivative of `P N` at `x`, about: the second one of the quintic.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn curvature(&self, isa: I, x: I::V) -> I::V {
         let c = |x| isa.splat(x);
         let [a_2, a_3, a_4, a_5] = self.quintic;
@@ -254,7 +254,7 @@ impl<I: Isa, E> Taylor<I, E> {
     }
 
     /// The density at a point whose (mirrored) angle is `theta`.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn at(&self, isa: I, geometry: &Geometry<I>, point: &Point<I>, theta: I::Double) -> Pdf<I> {
         let p = I::V::narrow(horner_lanes(theta.min(self.theta_c), self.p));
         let p_theta = p * geometry.cosine(isa, point) / (self.mass_1 + self.mass_2);
@@ -264,7 +264,7 @@ impl<I: Isa, E> Taylor<I, E> {
 
 /// `theta` of a point \[rad\], within 1.7e-8 of that of the rounded `t'` and `h`, a third of half an ulp: the logarithms
 /// of the polynomials have slopes up to 30.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 fn angle<I: Isa>(isa: I, t_prime: I::V, h: I::V) -> I::Double {
     let (c, d) = (|x| isa.splat(x), |x| isa.splat_double(x));
     let size = t_prime.abs();
@@ -290,7 +290,7 @@ const ATAN: [f32; 7] =
     [-0.001_602_414, 0.010_025_549, -0.029_446_354, 0.056_127_183, -0.082_897_5, 0.109_102_75, -0.142_554_63];
 
 /// One division by `theta - middle`.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 fn divide<N: Number>(q: &mut [N; ORDER + 1], first: usize, middle: N) {
     let mut k = ORDER;
     while k > first {
@@ -300,7 +300,7 @@ fn divide<N: Number>(q: &mut [N; ORDER + 1], first: usize, middle: N) {
 }
 
 /// The coefficients of `p(middle + half x)`.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 fn shift<I: Isa>(mut p: [I::Double; ORDER + 1], middle: I::Double, half: I::V) -> [I::V; ORDER + 1] {
     // Synthetic division by (theta - middle), again and again, leaves the shifted coefficients.
     divide(&mut p, 0, middle);
@@ -331,7 +331,7 @@ fn shift<I: Isa>(mut p: [I::Double; ORDER + 1], middle: I::Double, half: I::V) -
 const COS: [f32; 4] = [2.319_438_7e-5, -1.385_592_7e-3, 4.166_399e-2, -0.499_999_3];
 
 /// The coefficients of `n cos(wave x) + slope sin(wave x)` for `|x| <= 1`, `wave <= pi/2`.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 fn cosine_series<I: Isa>(isa: I, n: I::V, slope: I::V, wave: I::V) -> [I::V; COSINE_ORDER + 1] {
     let mut q = [n; COSINE_ORDER + 1];
     let z = wave * wave;
@@ -349,7 +349,7 @@ fn cosine_series<I: Isa>(isa: I, n: I::V, slope: I::V, wave: I::V) -> [I::V; COS
 }
 
 /// The sums of the even and of the odd coefficients.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 fn halves_at_1<V: Lanes>(p: &[V; PRODUCT_ORDER + 1]) -> [V; 2] {
     let (mut even, mut odd) = (p[PRODUCT_ORDER - 1], p[PRODUCT_ORDER]);
     let mut k = PRODUCT_ORDER - 1;
@@ -362,7 +362,7 @@ fn halves_at_1<V: Lanes>(p: &[V; PRODUCT_ORDER + 1]) -> [V; 2] {
 }
 
 /// The polynomial with the given coefficients, from degree 0 on, the even and the odd ones apart: half the latency.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 fn by_halves<V: Lanes>(x: V, z: V, p: &[V; PRODUCT_ORDER + 1]) -> V {
     let (mut even, mut odd) = (p[PRODUCT_ORDER - 1], p[PRODUCT_ORDER]);
     let mut k = PRODUCT_ORDER - 1;
@@ -376,7 +376,7 @@ fn by_halves<V: Lanes>(x: V, z: V, p: &[V; PRODUCT_ORDER + 1]) -> V {
 
 /// The coefficients, from degree 2 on, of the quintic that agrees with an antiderivative and its slope at -1, 0 and 1:
 /// given the slope at 0, and what the even and the odd terms of the slope and of the antiderivative over `x` are at 1.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 fn quintic<I: Isa>(isa: I, f_m: I::V, values: [I::V; 2], integrals: [I::V; 2]) -> [I::V; 4] {
     let c = |x| isa.splat(x);
     let a_4 = values[1].mul_add(c(0.5), -integrals[1]);
@@ -385,7 +385,7 @@ fn quintic<I: Isa>(isa: I, f_m: I::V, values: [I::V; 2], integrals: [I::V; 2]) -
 }
 
 /// The antiderivative that vanishes at 0, divided by `x`.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 fn integrate<I: Isa>(isa: I, p: &[I::V; PRODUCT_ORDER + 1]) -> [I::V; PRODUCT_ORDER + 1] {
     let mut q = *p;
     let mut k = 1;

@@ -1,6 +1,7 @@
 //! The expansion of the phase function, which is the medium's: [`Expanded::of_phase`].
 
-use super::taylor::Expansion;
+use super::taylor::{Expansion, Taylor};
+use crate::density::Kind;
 use crate::expansion::Expanded;
 use crate::geometry::Geometry;
 use crate::integrand::MediumLanes;
@@ -8,8 +9,12 @@ use crate::simd::Isa;
 
 pub(crate) struct OfPhase;
 
+impl Kind for OfPhase {
+    type On<I: Isa> = Taylor<I, Self>;
+}
+
 impl<I: Isa> Expansion<I> for OfPhase {
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn expand(_: I, _: &Geometry<I>, medium: &MediumLanes<I>) -> Expanded<I> {
         medium.phase
     }

@@ -1,6 +1,7 @@
 //! The expansion of the transmittance `exp(-m (tan theta + sec theta))`, `m = mu_t h`, (4)-(11), over its value at 0.
 
-use super::taylor::Expansion;
+use super::taylor::{Expansion, Taylor};
+use crate::density::Kind;
 use crate::expansion::Expanded;
 use crate::geometry::Geometry;
 use crate::integrand::MediumLanes;
@@ -9,12 +10,16 @@ use crate::simd::{Double, Isa, Lanes, none};
 
 pub(crate) struct OfTransmittance;
 
+impl Kind for OfTransmittance {
+    type On<I: Isa> = Taylor<I, Self>;
+}
+
 /// Beyond this `m` the density is that of a thinner medium: the trusted range is below 0.01 rad there, and powers of
 /// `m` leave f32.
 const THICKEST: f64 = 32.0;
 
 impl<I: Isa> Expansion<I> for OfTransmittance {
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn expand(isa: I, geometry: &Geometry<I>, medium: &MediumLanes<I>) -> Expanded<I> {
         let m = (medium.mu_t.widen() * geometry.h.widen()).min(isa.splat_double(THICKEST));
         let p = [
@@ -31,7 +36,7 @@ impl<I: Isa> Expansion<I> for OfTransmittance {
 }
 
 /// `exp(0.210824 - 0.15974 m)` for `m` up to [`THICKEST`], by its 16th root. Max error 1.2e-9, absolute.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 fn trusted<I: Isa>(isa: I, m: I::Double) -> I::Double {
     let mut power = horner_double(isa, m, ROOT);
     let mut k = 0;
@@ -53,7 +58,7 @@ const ROOT: [f64; 6] = [
 ];
 
 /// Numerators over a factorial.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 const fn over<const K: usize>(factorial: i32, numerators: [i32; K]) -> [f64; K] {
     let mut quotients = [0.0; K];
     let mut k = 0;

@@ -26,28 +26,28 @@ impl Isa for Avx512 {
     type Double = Pair<F64x8>;
     type Group = [f32; 16];
 
-    #[inline(always)]
+    #[inline]
     fn splat(self, x: f32) -> F32x16 {
         F32x16(proven!(_mm512_set1_ps(x)))
     }
-    #[inline(always)]
+    #[inline]
     fn splat_double(self, x: f64) -> Pair<F64x8> {
         let x = F64x8(proven!(_mm512_set1_pd(x)));
         Pair(x, x)
     }
-    #[inline(always)]
+    #[inline]
     fn groups(column: &[f32]) -> &[[f32; 16]] {
         column.as_chunks().0
     }
-    #[inline(always)]
+    #[inline]
     fn groups_mut(column: &mut [f32]) -> &mut [[f32; 16]] {
         column.as_chunks_mut().0
     }
-    #[inline(always)]
+    #[inline]
     fn load(self, group: &[f32; 16]) -> F32x16 {
         F32x16(proven!(_mm512_loadu_ps(group.as_ptr())))
     }
-    #[inline(always)]
+    #[inline]
     fn store(self, lanes: F32x16, group: &mut [f32; 16]) {
         proven!(_mm512_storeu_ps(group.as_mut_ptr(), lanes.0));
     }
@@ -55,14 +55,14 @@ impl Isa for Avx512 {
 
 impl Neg for F32x16 {
     type Output = Self;
-    #[inline(always)]
+    #[inline]
     fn neg(self) -> Self {
         Self(proven!(_mm512_xor_ps(self.0, _mm512_set1_ps(-0.0))))
     }
 }
 
 impl Number for F32x16 {
-    #[inline(always)]
+    #[inline]
     fn mul_add(self, m: Self, a: Self) -> Self {
         Self(proven!(_mm512_fmadd_ps(self.0, m.0, a.0)))
     }
@@ -73,43 +73,43 @@ impl Lanes for F32x16 {
     type Double = Pair<F64x8>;
     const N: usize = 16;
 
-    #[inline(always)]
+    #[inline]
     fn sqrt(self) -> Self {
         Self(proven!(_mm512_sqrt_ps(self.0)))
     }
-    #[inline(always)]
+    #[inline]
     fn abs(self) -> Self {
         Self(proven!(_mm512_abs_ps(self.0)))
     }
-    #[inline(always)]
+    #[inline]
     fn min(self, o: Self) -> Self {
         Self(proven!(_mm512_min_ps(self.0, o.0)))
     }
-    #[inline(always)]
+    #[inline]
     fn max(self, o: Self) -> Self {
         Self(proven!(_mm512_max_ps(self.0, o.0)))
     }
-    #[inline(always)]
+    #[inline]
     fn lt(self, o: Self) -> __mmask16 {
         proven!(_mm512_cmp_ps_mask::<_CMP_LT_OQ>(self.0, o.0))
     }
-    #[inline(always)]
+    #[inline]
     fn le(self, o: Self) -> __mmask16 {
         proven!(_mm512_cmp_ps_mask::<_CMP_LE_OQ>(self.0, o.0))
     }
-    #[inline(always)]
+    #[inline]
     fn eq(self, o: Self) -> __mmask16 {
         proven!(_mm512_cmp_ps_mask::<_CMP_EQ_OQ>(self.0, o.0))
     }
-    #[inline(always)]
+    #[inline]
     fn select(m: __mmask16, yes: Self, no: Self) -> Self {
         Self(proven!(_mm512_mask_blend_ps(m, no.0, yes.0)))
     }
-    #[inline(always)]
+    #[inline]
     fn bits(m: __mmask16) -> u32 {
         m.into()
     }
-    #[inline(always)]
+    #[inline]
     fn pow2(self) -> Self {
         let n = self + Self(proven!(_mm512_set1_ps(12_582_912.0)));
         Self(proven!(_mm512_castsi512_ps(_mm512_slli_epi32::<23>(_mm512_add_epi32(
@@ -117,21 +117,21 @@ impl Lanes for F32x16 {
             _mm512_set1_epi32(127)
         )))))
     }
-    #[inline(always)]
+    #[inline]
     fn split(self) -> (Self, Self) {
         let bits = proven!(_mm512_castps_si512(self.0));
         let exponent = proven!(_mm512_srai_epi32::<23>(_mm512_sub_epi32(bits, _mm512_set1_epi32(0x3f35_04f3))));
         let significand = proven!(_mm512_sub_epi32(bits, _mm512_slli_epi32::<23>(exponent)));
         (Self(proven!(_mm512_castsi512_ps(significand))), Self(proven!(_mm512_cvtepi32_ps(exponent))))
     }
-    #[inline(always)]
+    #[inline]
     fn widen(self) -> Pair<F64x8> {
         Pair(
             F64x8(proven!(_mm512_cvtps_pd(_mm512_castps512_ps256(self.0)))),
             F64x8(proven!(_mm512_cvtps_pd(_mm512_extractf32x8_ps::<1>(self.0)))),
         )
     }
-    #[inline(always)]
+    #[inline]
     fn narrow(d: Pair<F64x8>) -> Self {
         let low = proven!(_mm512_castps256_ps512(_mm512_cvtpd_ps(d.0.0)));
         Self(proven!(_mm512_insertf32x8::<1>(low, _mm512_cvtpd_ps(d.1.0))))
@@ -140,25 +140,25 @@ impl Lanes for F32x16 {
 
 impl Neg for F64x8 {
     type Output = Self;
-    #[inline(always)]
+    #[inline]
     fn neg(self) -> Self {
         Self(proven!(_mm512_xor_pd(self.0, _mm512_set1_pd(-0.0))))
     }
 }
 
 impl Number for F64x8 {
-    #[inline(always)]
+    #[inline]
     fn mul_add(self, m: Self, a: Self) -> Self {
         Self(proven!(_mm512_fmadd_pd(self.0, m.0, a.0)))
     }
 }
 
 impl Double for F64x8 {
-    #[inline(always)]
+    #[inline]
     fn min(self, o: Self) -> Self {
         Self(proven!(_mm512_min_pd(self.0, o.0)))
     }
-    #[inline(always)]
+    #[inline]
     fn max(self, o: Self) -> Self {
         Self(proven!(_mm512_max_pd(self.0, o.0)))
     }
