@@ -1,0 +1,25 @@
+//! Prints a hash of everything that airlight computes, a line for each backend and strategy, all of it on threads with
+//! little stack. The lines of a backend are the same in every profile.
+
+use airlight::{Backend, Strategy};
+use dependent::{Columns, everything};
+use std::thread;
+
+/// A thirty-second of what a main thread usually has.
+const STACK: usize = 256 << 10;
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    rayon::ThreadPoolBuilder::new().num_threads(2).stack_size(STACK).build_global()?;
+    let columns = &Columns::new();
+    for backend in Backend::available() {
+        for &strategy in Strategy::ALL {
+            let hash = thread::scope(|scope| {
+                let work = move || everything(columns, strategy, backend);
+                let thread = thread::Builder::new().stack_size(STACK).spawn_scoped(scope, work)?;
+                Ok::<_, std::io::Error>(thread.join().expect("no panic"))
+            })??;
+            println!("{} {strategy} {hash:016x}", backend.name());
+        }
+    }
+    Ok(())
+}
