@@ -25,6 +25,9 @@ const BOUND: f64 = 1e-12;
 /// emitter 1.2e-6 m beside a ray and 96 m along it leaves `t'` seven digits in f64, and it is not moved by one ulp, as the
 /// excuse has it, but at every knot and at the point by one of its own.
 const BOUND_OF_PRODUCT: f64 = 1e-7;
+/// The same where a peak of the phase function, down to a ten-millionth of a radian wide, is next to the emitter: it multiplies
+/// an error of `t'` once more. Seen 2.3e-7.
+const BOUND_OF_PRODUCT_AT_A_PEAK: f64 = 1e-6;
 /// Of smaller numbers f64 has not all digits.
 const TINY: f64 = 1e-290;
 
@@ -61,8 +64,11 @@ fn the_oracle_is_as_exact_as_f64_allows() {
             let worst = (0..cases.len()).max_by(|&i, &j| errors[i][k].total_cmp(&errors[j][k])).expect("cases");
             let ((index, case), error) = (cases[worst], errors[worst][k]);
             write!(report, " {error:9.1e}").unwrap();
-            let near = matches!(family, Family::NearEmitter | Family::InfiniteRays);
-            let bound = if near && k == PRODUCT { BOUND_OF_PRODUCT } else { BOUND };
+            let bound = match family {
+                Family::NearEmitter | Family::InfiniteRays if k == PRODUCT => BOUND_OF_PRODUCT,
+                Family::Phase if k == PRODUCT => BOUND_OF_PRODUCT_AT_A_PEAK,
+                _ => BOUND,
+            };
             // Of arbitrary bits the light at every knot may be less than f64 can hold: then the oracle is uniform.
             let unbounded = family == Family::RandomBits && *quantity == "product";
             if error > bound && !unbounded {

@@ -30,7 +30,8 @@ pub(super) struct Product<'a> {
 
 impl<'a> Product<'a> {
     pub(super) fn new(scene: &'a Scene, [t_a, t_b]: &[Big; 2]) -> Self {
-        let most = big(1.0 - 1.0 / 4096.0);
+        // A phase function without width is no density: that of |g| = 1 has the width of the f32 next below.
+        let most = big(f64::from(1f32.next_down()));
         let g = scene.g.clone().min(most.clone()).max(-most);
         let (x_a, x_b) = (x(scene, t_a), x(scene, t_b));
         let reach = big(1.5) * &x_a + big(1.25) * &scene.h * (big(1.0) - &g) / (big(1.0) + &g);
