@@ -73,6 +73,7 @@ mod inversion;
 #[cfg(feature = "measure")]
 mod limits;
 pub mod oracle;
+mod precision;
 mod road;
 mod sampler;
 mod scene;
@@ -85,6 +86,7 @@ pub use glam;
 #[cfg(feature = "measure")]
 #[doc(hidden)]
 pub use limits::{Limit, Operations};
+pub use precision::{Precision, UnknownPrecision};
 #[cfg(feature = "measure")]
 #[doc(hidden)]
 pub use road::stages::Stage;

@@ -3,7 +3,7 @@
 use crate::batch::{Counts, Emitters, Inputs, Media, Rays, Samples};
 use crate::scene::{Emitter, Medium, Ray};
 use crate::simd::Backend;
-use crate::{Error, Strategy, road};
+use crate::{Error, Precision, Strategy, road};
 use core::slice::{from_mut, from_ref};
 
 /// Samples scattering distances of one density.
@@ -20,6 +20,7 @@ use core::slice::{from_mut, from_ref};
 #[derive(Clone, Copy, Debug)]
 pub struct Sampler {
     strategy: Strategy,
+    precision: Precision,
     backend: Backend,
 }
 
@@ -37,10 +38,22 @@ pub struct Sample {
 }
 
 impl Sampler {
-    /// A sampler of `strategy` on the widest backend of this machine.
+    /// A sampler of `strategy`, as exact as there is, on the widest backend of this machine.
     #[must_use]
     pub fn new(strategy: Strategy) -> Self {
-        Self { strategy, backend: Backend::detect() }
+        Self { strategy, precision: Precision::default(), backend: Backend::detect() }
+    }
+
+    /// The same with another precision.
+    ///
+    /// # Errors
+    /// [`Error::Unavailable`] unless the strategy [has](Strategy::has_precision) it.
+    pub fn with_precision(self, precision: Precision) -> Result<Self, Error> {
+        if self.strategy.has_precision(precision) {
+            Ok(Self { precision, ..self })
+        } else {
+            Err(Error::Unavailable { field: "fast precision", strategy: self.strategy })
+        }
     }
 
     /// The same on another backend, for tests and measurements.
@@ -53,6 +66,12 @@ impl Sampler {
     #[must_use]
     pub fn strategy(&self) -> Strategy {
         self.strategy
+    }
+
+    /// Its precision.
+    #[must_use]
+    pub fn precision(&self) -> Precision {
+        self.precision
     }
 
     /// Draws a distance for each of the uniform variates `u` in `[0, 1]`.

@@ -8,6 +8,7 @@ pub(crate) mod taylor_phase;
 pub(crate) mod taylor_transmittance;
 pub(crate) mod transmittance;
 
+use crate::Precision;
 use std::fmt;
 use std::str::FromStr;
 
@@ -72,6 +73,16 @@ impl Strategy {
     #[must_use]
     pub fn has_radiance(self) -> bool {
         matches!(self, Self::Product3 | Self::Product5 | Self::Product9 | Self::Product17)
+    }
+
+    /// Whether a sampler of it can have this precision: all are exact; the Taylor densities, here to compare with the paper,
+    /// are nothing else.
+    #[must_use]
+    pub fn has_precision(self, precision: Precision) -> bool {
+        match self {
+            Self::TaylorTransmittance | Self::TaylorPhase => precision == Precision::Exact,
+            _ => true,
+        }
     }
 
     /// Its name on the command line, in JSON and in prose.
