@@ -1,7 +1,7 @@
 //! On generic scenes f32 results stand at the f32 floor: every bound holds, and the errors of the CDF are those that
 //! exact arithmetic would have, rounded once.
 
-use airlight::{Sampler, Strategy};
+use airlight::{Precision, Sampler, Strategy};
 use airlight_tools::backends::distinct;
 use airlight_tools::bounds::bounds;
 use airlight_tools::errors::{Errors, quantile};
@@ -14,14 +14,20 @@ fn generic_rays_are_within_the_bounds() {
     let mut backends = 0;
     for backend in distinct() {
         backends += 1;
-        for &strategy in Strategy::ALL {
-            let sampler = Sampler::new(strategy).with_backend(backend);
+        let all = Strategy::ALL
+            .iter()
+            .flat_map(|strategy| Precision::ALL.iter().map(move |precision| (*strategy, *precision)));
+        for (strategy, precision) in all.filter(|(strategy, precision)| strategy.has_precision(*precision)) {
+            let sampler = Sampler::new(strategy).with_precision(precision).unwrap().with_backend(backend);
             let errors = Errors::measure(&sampler, Family::Generic, RAYS, 101, |_| ());
             assert!(errors.sampled > RAYS / 2, "{strategy}: {} of {RAYS} rays sampled", errors.sampled);
-            for bound in bounds(strategy, Family::Generic) {
+            for bound in bounds(strategy, precision, Family::Generic) {
                 let (figure, value, limit) = (bound.figure, (bound.read)(&errors), bound.limit);
-                println!("{strategy}, {}: {figure} {value:.1e} of {limit:.1e}", backend.name());
-                assert!(bound.holds(&errors), "{strategy}: {figure} {value:e} exceeds {limit:e}, {errors:?}");
+                println!("{strategy}, {precision}, {}: {figure} {value:.1e} of {limit:.1e}", backend.name());
+                assert!(
+                    bound.holds(&errors),
+                    "{strategy}, {precision}: {figure} {value:e} exceeds {limit:e}, {errors:?}"
+                );
             }
         }
     }

@@ -1,9 +1,9 @@
 //! `airlight accuracy`: the errors of the kernels on families of hard inputs, held against what is promised.
 
-use crate::arguments::{self, Json};
+use crate::arguments::{self, Json, Samplers};
 use crate::progress::Part;
 use crate::{output, progress, table};
-use airlight::{Backend, Sampler, Strategy};
+use airlight::{Backend, Sampler};
 use airlight_tools::backends::distinct;
 use airlight_tools::bounds::bounds;
 use airlight_tools::errors::{Errors, quantile};
@@ -26,9 +26,8 @@ pub(crate) struct Args {
     /// Seed of the families
     #[arg(long, default_value_t = 0)]
     seed: u64,
-    /// Strategy to measure, may be repeated [default: all]
-    #[arg(long, value_name = "NAME")]
-    strategy: Vec<Strategy>,
+    #[command(flatten)]
+    samplers: Samplers,
     #[arg(long, value_name = "NAME", help = format!("Family to measure, may be repeated [default: all of {}]", names()))]
     family: Vec<Family>,
     #[command(flatten)]
@@ -42,8 +41,8 @@ fn names() -> String {
 /// Runs the comparison.
 pub(crate) fn run(args: &Args) -> Result<ExitCode> {
     let json = args.json.target()?;
-    let progress = progress::bar(args.steps())?;
-    let figures = measure(args, Part::whole(&progress));
+    let progress = progress::bar(args.steps()?)?;
+    let figures = measure(args, Part::whole(&progress))?;
     progress.finish_and_clear();
 
     let kept = figures.0.iter().all(|row| row.broken.is_empty());
@@ -52,37 +51,35 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode> {
 }
 
 /// The errors of everything that was asked for.
-pub(crate) fn measure(args: &Args, progress: Part<'_>) -> Figures {
+pub(crate) fn measure(args: &Args, progress: Part<'_>) -> Result<Figures> {
+    let samplers = args.samplers.all()?;
     let mut rows = Vec::new();
     for &family in args.families() {
         for backend in distinct() {
-            for &strategy in args.strategies() {
-                progress.tell(format!("{} {}", family.name(), strategy.name()));
-                let sampler = Sampler::new(strategy).with_backend(backend);
+            for sampler in &samplers {
+                progress.tell(format!("{} {} {}", family.name(), sampler.strategy(), sampler.precision()));
+                let sampler = sampler.with_backend(backend);
                 let errors = Errors::measure(&sampler, family, args.rays, args.seed, |done| progress.inc(done));
-                rows.push(Row::new(strategy, family, backend, &errors));
+                rows.push(Row::new(&sampler, family, backend, &errors));
             }
         }
     }
-    Figures(rows)
+    Ok(Figures(rows))
 }
 
 impl Args {
-    fn strategies(&self) -> &[Strategy] {
-        if self.strategy.is_empty() { Strategy::ALL } else { &self.strategy }
-    }
-
     fn families(&self) -> &[Family] {
         if self.family.is_empty() { &Family::ALL } else { &self.family }
     }
 
     /// Rays to measure in all.
-    pub(crate) fn steps(&self) -> usize {
-        (distinct().count() * self.families().len() * self.strategies().len()).saturating_mul(self.rays)
+    pub(crate) fn steps(&self) -> Result<usize> {
+        let samplers = self.samplers.all()?.len();
+        Ok((distinct().count() * self.families().len() * samplers).saturating_mul(self.rays))
     }
 }
 
-/// A row per family, backend and strategy.
+/// A row per family, backend, strategy and precision.
 #[derive(Serialize)]
 #[serde(transparent)]
 pub(crate) struct Figures(pub(crate) Vec<Row>);
@@ -91,6 +88,7 @@ pub(crate) struct Figures(pub(crate) Vec<Row>);
 #[derive(Serialize)]
 pub(crate) struct Row {
     pub(crate) strategy: &'static str,
+    pub(crate) precision: &'static str,
     family: &'static str,
     pub(crate) backend: &'static str,
     rays: usize,
@@ -98,6 +96,7 @@ pub(crate) struct Row {
     nonfinite: usize,
     out_of_range: usize,
     misjudged: usize,
+    misjudged_light: f64,
     bisected: usize,
     /// For every kind of error its median, p99, p99.9, p99.99 and maximum, as `cdf_p50` and so on.
     #[serde(flatten)]
@@ -127,7 +126,8 @@ impl Row {
         self.kinds.iter().filter(|kind| !kind.quantiles[0].is_nan())
     }
 
-    fn new(strategy: Strategy, family: Family, backend: Backend, errors: &Errors) -> Self {
+    fn new(sampler: &Sampler, family: Family, backend: Backend, errors: &Errors) -> Self {
+        let (strategy, precision) = (sampler.strategy(), sampler.precision());
         let kinds: Vec<Kind> = errors
             .lists()
             .map(|(name, list)| Kind { name, quantiles: QUANTILES.map(|(_, p)| quantile(list, p)) })
@@ -135,7 +135,7 @@ impl Row {
         let keys = kinds.iter().flat_map(|kind| {
             QUANTILES.iter().zip(kind.quantiles).map(|((p, _), value)| (format!("{}_{p}", kind.name), json!(value)))
         });
-        let broken = bounds(strategy, family)
+        let broken = bounds(strategy, precision, family)
             .iter()
             .filter(|bound| !bound.holds(errors))
             .map(|bound| match (bound.read)(errors) {
@@ -145,6 +145,7 @@ impl Row {
             .collect();
         Self {
             strategy: strategy.name(),
+            precision: precision.name(),
             family: family.name(),
             backend: backend.name(),
             rays: errors.rays,
@@ -152,6 +153,7 @@ impl Row {
             nonfinite: errors.nonfinite,
             out_of_range: errors.out_of_range,
             misjudged: errors.misjudged,
+            misjudged_light: errors.misjudged_light,
             bisected: errors.bisected,
             quantiles: keys.collect(),
             broken,
@@ -184,15 +186,18 @@ impl fmt::Display for Figures {
         for row in &self.0 {
             writeln!(
                 f,
-                "{}, {}, {}: {} of {} rays sampled; nonfinite {}, out of range {}, misjudged {}, bisected {}",
+                "{}, {}, {}, {}: {} of {} rays sampled; nonfinite {}, out of range {}, misjudged {}{}, \
+                 bisected {}",
                 row.family,
                 row.strategy,
+                row.precision,
                 row.backend,
                 row.sampled,
                 row.rays,
                 row.nonfinite,
                 row.out_of_range,
                 row.misjudged,
+                if row.misjudged > 0 { format!(" (light {:.1e})", row.misjudged_light) } else { String::new() },
                 row.bisected
             )?;
             let mut table = table::new(["error", "median", "p99", "p99.9", "p99.99", "max"]);
@@ -217,6 +222,11 @@ impl fmt::Display for Figures {
         writeln!(f, "  nonfinite       something is NaN or infinite")?;
         writeln!(f, "  out of range    t is outside [t_min, t_max], or something is negative")?;
         writeln!(f, "  misjudged       sampled with nothing to sample, or the reverse")?;
+        writeln!(
+            f,
+            "  light           the most of a misjudged ray, over that from an emitter that faces all of it squarely;"
+        )?;
+        writeln!(f, "                  of a dark one, how far N is below 0")?;
         writeln!(f, "  bisected        the iteration fell back to bisection, or took many steps\n")?;
         let broken: usize = self.0.iter().map(|row| row.broken.len()).sum();
         match broken {
@@ -229,6 +239,7 @@ impl fmt::Display for Figures {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use airlight::Strategy;
 
     #[test]
     fn every_kind_of_error_has_a_legend() {
@@ -242,7 +253,7 @@ mod tests {
         let sampler = Sampler::new(Strategy::Product5);
         let row = |rays| {
             let errors = Errors::measure(&sampler, Family::Generic, rays, 0, |_| ());
-            Row::new(Strategy::Product5, Family::Generic, Backend::detect(), &errors)
+            Row::new(&sampler, Family::Generic, Backend::detect(), &errors)
         };
         let text = Figures(vec![row(200)]).to_string();
         for name in ["cdf_resolved", "pdf_floor", "integrand"] {

@@ -1,7 +1,7 @@
 //! Arguments that several subcommands share.
 
 use crate::output::Target;
-use airlight::{Backend, Medium};
+use airlight::{Backend, Medium, Precision, Sampler, Strategy};
 use anyhow::Result;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -22,6 +22,48 @@ impl Json {
             .map(|path| if path == Path::new("-") { Ok(Target::Stdout) } else { Target::file(path) })
             .transpose()
     }
+}
+
+/// Which densities are measured, and how exactly they compute.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Samplers {
+    /// Strategy to measure, may be repeated [default: all]
+    #[arg(long, value_name = "NAME")]
+    strategy: Vec<Strategy>,
+    /// Precision to measure, exact or fast, may be repeated [default: all that the strategy has]
+    #[arg(long, value_name = "NAME")]
+    precision: Vec<Precision>,
+}
+
+impl Samplers {
+    /// All of them.
+    ///
+    /// # Errors
+    /// As [`samplers`].
+    pub(crate) fn all(&self) -> Result<Vec<Sampler>> {
+        samplers(&self.strategy, &self.precision)
+    }
+}
+
+/// A sampler of every strategy in every precision. Of an empty list it takes all, less what does not go together.
+///
+/// # Errors
+/// Where a strategy that was asked for has not a precision that was asked for.
+pub(crate) fn samplers(strategies: &[Strategy], precisions: &[Precision]) -> Result<Vec<Sampler>> {
+    let asked = !strategies.is_empty() && !precisions.is_empty();
+    let strategies = if strategies.is_empty() { Strategy::ALL } else { strategies };
+    let precisions = if precisions.is_empty() { Precision::ALL } else { precisions };
+    let mut samplers = Vec::new();
+    for &strategy in strategies {
+        for &precision in precisions {
+            match Sampler::new(strategy).with_precision(precision) {
+                Ok(sampler) => samplers.push(sampler),
+                Err(error) if asked => return Err(error.into()),
+                Err(_) => {}
+            }
+        }
+    }
+    Ok(samplers)
 }
 
 /// What a subcommand makes of a command line.

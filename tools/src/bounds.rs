@@ -1,11 +1,14 @@
-//! What is promised of the errors, for every strategy on every family; where it is less than was aimed at, why.
+//! What is promised of the errors, for every strategy in every precision on every family; where it is less than was
+//! aimed at, why. Those of [`Precision::Exact`] are here, those of [`Precision::Fast`] in `fast`.
 //!
 //! Seen is the worst of all families and strategies in runs of `airlight accuracy --rays 131072` with some seeds, unless
 //! stated.
 
+mod fast;
+
 use crate::errors::{Errors, quantile};
 use crate::families::Family;
-use airlight::Strategy;
+use airlight::{Precision, Strategy};
 
 /// A promise: a quantile of one kind of error, or a count, and how large it may be.
 #[derive(Clone, Copy, Debug)]
@@ -29,9 +32,16 @@ impl Bound {
 /// 2^-24: half an ulp of a number just above 1, an ulp of one just below.
 const ULP: f64 = f32::EPSILON as f64 / 2.0;
 
-/// The promises for one strategy on one family.
+/// The promises for one strategy in one precision on one family.
 #[must_use]
-pub fn bounds(strategy: Strategy, family: Family) -> Vec<Bound> {
+pub fn bounds(strategy: Strategy, precision: Precision, family: Family) -> Vec<Bound> {
+    match precision {
+        Precision::Fast => fast::bounds(family),
+        _ => exact(strategy, family),
+    }
+}
+
+fn exact(strategy: Strategy, family: Family) -> Vec<Bound> {
     let mut bounds = vec![
         Bound { figure: "nonfinite", read: |e| e.nonfinite as f64, limit: 0.0 },
         Bound { figure: "out_of_range", read: |e| e.out_of_range as f64, limit: 0.0 },

@@ -75,6 +75,8 @@ pub struct Errors {
     pub out_of_range: usize,
     /// Rays that were sampled and have nothing to sample, or the reverse.
     pub misjudged: usize,
+    /// The most light that one of these has, in that from an emitter which faces all of the ray squarely.
+    pub misjudged_light: f64,
     /// Rays that fell back to bisection.
     pub bisected: usize,
     /// The case of the largest error of each list, in their order.
@@ -163,7 +165,8 @@ impl Errors {
             self.sampled += usize::from(row.sampled);
             self.nonfinite += usize::from(row.nonfinite);
             self.out_of_range += usize::from(row.out_of_range);
-            self.misjudged += usize::from(row.misjudged);
+            self.misjudged += usize::from(row.misjudged.is_some());
+            self.misjudged_light = self.misjudged_light.max(row.misjudged.unwrap_or(0.0));
             // An error that is no number is as bad as can be.
             let errors = row.errors.map(|error| error.map(|error| if error.is_nan() { f64::INFINITY } else { error }));
             for (list, error) in self.lists_mut().into_iter().zip(errors) {
@@ -233,7 +236,8 @@ struct Row {
     sampled: bool,
     nonfinite: bool,
     out_of_range: bool,
-    misjudged: bool,
+    /// The light of a ray that is judged wrongly.
+    misjudged: Option<f64>,
     /// In the order of the lists of [`Errors`].
     errors: [Option<f64>; KINDS],
 }
@@ -245,11 +249,12 @@ impl Row {
         let scene = case.scene().ok().filter(|_| (0.0..=1.0).contains(&case.u));
         let lit = scene.as_ref().and_then(Scene::lit);
         let sampled = pdf > 0.0;
+        let judged = sampled == lit.is_some() || scene.as_ref().is_some_and(beyond_f32) || case.is_extreme();
         let mut row = Self {
             sampled,
             nonfinite: all.iter().any(|x| !x.is_finite()),
             out_of_range: all.iter().any(|&x| x < 0.0),
-            misjudged: sampled != lit.is_some() && !scene.as_ref().is_some_and(beyond_f32) && !case.is_extreme(),
+            misjudged: (!judged).then(|| scene.as_ref().map_or(1.0, relative_light)),
             errors: [None; KINDS],
         };
         let (Some(scene), Some(_), true, false) = (scene, lit, sampled, case.is_extreme()) else { return row };
@@ -405,11 +410,31 @@ fn beyond([low, high]: [f64; 2], x: f64) -> f64 {
 pub fn beyond_f32(scene: &Scene) -> bool {
     scene.lit().is_none_or(|(a, b)| {
         let angle = scene.angle(a, b);
-        // Beyond a right angle what is bright may lie between the ends.
-        let bright = if angle > FRAC_PI_2 { scene.alpha().hypot(scene.beta()) } else { 0.0 };
-        let light = angle * (scene.cosine(a) + scene.cosine(b)).max(bright);
+        let light = most_light(scene, a, b);
         b - a < 1.01e-18 || angle < 1.01e-30 || b - a < 1.01e-36 * scene.r(a) * scene.r(b) || light < 1.01e-25
     })
+}
+
+/// The integral of N over the angle from `a` to `b`, where N > 0, at most; it is no less than a quarter of this.
+fn most_light(scene: &Scene, a: f64, b: f64) -> f64 {
+    let angle = scene.angle(a, b);
+    // Beyond a right angle what is bright may lie between the ends.
+    let bright = if angle > FRAC_PI_2 { scene.alpha().hypot(scene.beta()) } else { 0.0 };
+    angle * (scene.cosine(a) + scene.cosine(b)).max(bright)
+}
+
+/// The light of a ray over that from an emitter which faces all of it squarely (N = 1), at most; 1 where that is more.
+/// Of a dark ray, by how much N falls short of 0.
+fn relative_light(scene: &Scene) -> f64 {
+    let (t_min, t_max) = scene.interval();
+    let signed_cosine = |t: f64| (scene.alpha() * scene.h() + scene.beta() * (t - scene.t_h())) / scene.r(t);
+    let light = match scene.lit() {
+        Some((a, b)) => most_light(scene, a, b) / scene.angle(t_min, t_max),
+        // Dark by the normal: without one every interval that is none is lit.
+        None if t_min < t_max => -signed_cosine(t_min).max(signed_cosine(t_max)),
+        None => 1.0,
+    };
+    if light < 1.0 { light } else { 1.0 }
 }
 
 /// The distance from `x > 0` to the next larger f32.

@@ -12,19 +12,19 @@ mod work;
 
 use self::arithmetic::{Need, Strain};
 pub(crate) use self::figures::{Figures, Row};
-use self::peers::{Peer, Peers};
+use self::peers::{Peer, Peers, Source};
 use self::rounds::take_turns;
 use self::streams::Stream;
-use self::work::{Contestant, LEAST, Work};
-use crate::arguments::{self, Json};
+use self::subject::Subject;
+use self::work::{Contestant, Kernel, LEAST, Work};
+use crate::arguments::{self, Json, Samplers};
 use crate::progress::Part;
 use crate::{output, progress};
-use airlight::{Backend, Limit, Stage, Strategy};
+use airlight::{Backend, Limit, Sampler, Stage, Strategy};
 use airlight_tools::threads;
 use airlight_tools::workload::{Wanted, Workload};
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use rayon::ThreadPool;
-use std::path::PathBuf;
 
 /// Sizes of batches, unless told otherwise: from what a core's cache holds to what only memory does.
 const SIZES: [usize; 4] = [1 << 12, 1 << 16, 1 << 20, 1 << 24];
@@ -50,9 +50,8 @@ pub(crate) struct Args {
     /// Threads to sample with, may be repeated [default: one, and one per core]
     #[arg(long, value_name = "N", value_parser = arguments::threads)]
     threads: Vec<usize>,
-    /// Strategy to measure, may be repeated [default: all]
-    #[arg(long, value_name = "NAME")]
-    strategy: Vec<Strategy>,
+    #[command(flatten)]
+    samplers: Samplers,
     /// Backend to measure, may be repeated [default: all of this machine, the slower ones on smaller batches]
     #[arg(long, value_name = "NAME", value_parser = arguments::backend)]
     backend: Vec<Backend>,
@@ -62,14 +61,15 @@ pub(crate) struct Args {
     /// Fewer rounds, and batches of 65536 and 1048576 rays unless told otherwise
     #[arg(long)]
     quick: bool,
-    /// Measure the kernels of a shared library as well
-    #[arg(long, value_name = "LIBRARY.so")]
-    peers: Option<PathBuf>,
+    /// Measure the kernels of a shared library as well, beside the backend of their width; may be repeated, once for
+    /// each [default backend: the fastest that is measured]
+    #[arg(long, value_name = "[BACKEND=]LIBRARY.so")]
+    peers: Vec<Source>,
     /// Count instructions per ray with valgrind, and measure no time
     #[arg(long, conflicts_with_all = ["rays", "threads", "rounds", "quick", "peers"])]
     instructions: bool,
     /// Only draw samples, so many batches of them: what is counted by --instructions
-    #[arg(long, hide = true, requires_all = ["strategy", "backend"])]
+    #[arg(long, hide = true, requires_all = ["strategy", "precision", "backend"])]
     batches: Option<usize>,
     #[command(flatten)]
     json: Json,
@@ -78,11 +78,11 @@ pub(crate) struct Args {
 /// Measures.
 pub(crate) fn run(args: &Args) -> Result<()> {
     if let Some(batches) = args.batches {
-        return instructions::sample(&args.strategy, &args.backend, batches);
+        return instructions::sample(&args.samplers.all()?, &args.backend, batches);
     }
     let json = args.json.target()?;
     if args.instructions {
-        return match instructions::count(&args.strategies(), &args.backend)? {
+        return match instructions::count(&args.samplers.all()?, &args.backend)? {
             Some(figures) => output::report(&figures, json.as_ref()),
             None => Ok(()),
         };
@@ -95,11 +95,12 @@ pub(crate) fn run(args: &Args) -> Result<()> {
 
 /// The times of everything that was asked for.
 pub(crate) fn measure(args: &Args, progress: Part<'_>) -> Result<Figures> {
-    let peers = args.peers.as_deref().map(Peers::load).transpose()?;
+    let samplers = args.samplers.all()?;
+    let peers = args.peers()?;
     let pools = Pools::new(args)?;
     let (sizes, rounds) = (args.sizes(), args.rounds());
     let largest = sizes.iter().copied().max().unwrap_or(0);
-    let many = if args.has_many() { &MANY[..] } else { &[] };
+    let many = if args.has_many(&samplers) { &MANY[..] } else { &[] };
     let rays = many.iter().map(|(rays, _)| *rays).fold(largest.max(LEAST), usize::max);
     let samples = many.iter().map(|(rays, per_ray)| rays * per_ray).fold(rays, usize::max);
     let mut workload = Workload::with_variates(rays, samples);
@@ -107,11 +108,17 @@ pub(crate) fn measure(args: &Args, progress: Part<'_>) -> Result<Figures> {
     progress.tell("limits of arithmetic");
     let strains = take_turns(args.strains(&pools.wanted), rounds, Strain::time)?;
     let counted = COUNTED.min(largest);
-    let need = |&strategy: &Strategy| Ok((strategy, Need::of(strategy, counted, &mut workload)?));
-    let needs: Vec<(Strategy, Need)> = args.strategies().iter().map(need).collect::<Result<_>>()?;
+    let need = |sampler: &Sampler| Ok((*sampler, Need::of(sampler, counted, &mut workload)?));
+    let needs: Vec<(Sampler, Need)> = samplers.iter().map(need).collect::<Result<_>>()?;
+    let mut errors = Vec::new();
+    for peers in &peers {
+        progress.tell(format!("errors of peers, {}", peers.backend.name()));
+        let error = |peer| (peers.subject(peer, Subject::default()), peers.cdf_p999(peer, LEAST, &mut workload));
+        errors.extend(Peer::ALL.map(error));
+    }
 
     let mut measured: Vec<_> = strains.into_iter().map(|(strain, times)| (strain.subject(), times)).collect();
-    for (name, contestants) in args.groups(&pools, peers.as_ref()) {
+    for (name, contestants) in args.groups(&samplers, &pools, &peers) {
         progress.tell(name);
         let group = take_turns(contestants, rounds, |contestant| {
             let time = contestant.time(&mut workload);
@@ -120,7 +127,7 @@ pub(crate) fn measure(args: &Args, progress: Part<'_>) -> Result<Figures> {
         })?;
         measured.extend(group.into_iter().map(|(contestant, times)| (contestant.subject(), times)));
     }
-    Ok(Figures::new(&measured, &needs))
+    Ok(Figures::new(&measured, &needs, &errors))
 }
 
 /// Threads to measure on.
@@ -143,9 +150,9 @@ impl Args {
     /// Samples to draw in all.
     pub(crate) fn steps(&self) -> Result<usize> {
         let pools = Pools::new(self)?;
-        let groups = self.groups(&pools, None);
+        let groups = self.groups(&self.samplers.all()?, &pools, &[]);
         let ours: usize = groups.iter().flat_map(|(_, contestants)| contestants).map(Contestant::taken).sum();
-        let peers = if self.peers.is_some() { Peer::ALL.len() } else { 0 };
+        let peers = self.peers.len() * Peer::ALL.len();
         let theirs = peers * self.sizes().iter().map(|&rays| rays.max(LEAST)).sum::<usize>();
         Ok((ours + theirs).saturating_mul(self.rounds() + 1))
     }
@@ -154,8 +161,19 @@ impl Args {
         self.rounds.unwrap_or(if self.quick { 3 } else { 9 })
     }
 
-    fn strategies(&self) -> Vec<Strategy> {
-        if self.strategy.is_empty() { Strategy::ALL.to_vec() } else { self.strategy.clone() }
+    /// The libraries of peers.
+    fn peers(&self) -> Result<Vec<Peers>> {
+        let mut loaded: Vec<Peers> = Vec::new();
+        for Source { backend, path } in &self.peers {
+            let backend = backend.or(self.fastest()).context("no backend is measured")?;
+            let name = backend.name();
+            let measured = self.backend.is_empty() || self.backend.iter().any(|backend| backend.name() == name);
+            ensure!(measured, "--peers {name}={}: the backend {name} is not measured", path.display());
+            let twice = loaded.iter().any(|peers| peers.backend.name() == name);
+            ensure!(!twice, "--peers {name}={}: there is another library for {name}", path.display());
+            loaded.push(Peers::load(path, backend)?);
+        }
+        Ok(loaded)
     }
 
     fn sizes(&self) -> Vec<usize> {
@@ -188,8 +206,8 @@ impl Args {
     }
 
     /// Whether many samples for each of few rays are measured.
-    fn has_many(&self) -> bool {
-        !self.quick && self.strategies().contains(&OF_MANY)
+    fn has_many(&self, samplers: &[Sampler]) -> bool {
+        !self.quick && samplers.iter().any(|sampler| sampler.strategy() == OF_MANY)
     }
 
     /// The fastest of the backends to measure.
@@ -199,53 +217,70 @@ impl Args {
     }
 
     /// All that is measured but for the arithmetic: contestants that take turns, and what they have in common.
-    fn groups<'a>(&self, pools: &'a Pools, peers: Option<&'a Peers>) -> Vec<(String, Vec<Contestant<'a>>)> {
-        let batches = |&rays: &usize| (format!("batches of {rays}"), self.batches(rays, &pools.wanted, peers));
+    fn groups<'a>(
+        &self,
+        samplers: &[Sampler],
+        pools: &'a Pools,
+        peers: &'a [Peers],
+    ) -> Vec<(String, Vec<Contestant<'a>>)> {
+        let of_size = |rays| self.batches(rays, samplers, &pools.wanted, peers);
+        let batches = |&rays: &usize| (format!("batches of {rays}"), of_size(rays));
         let mut groups: Vec<_> = self.sizes().iter().map(batches).collect();
-        groups.push(("calls of few rays".to_owned(), self.calls(&pools.one)));
-        groups.push(("few rays, many variates".to_owned(), self.many(&pools.wanted)));
+        groups.push(("calls of few rays".to_owned(), self.calls(samplers, &pools.one)));
+        groups.push(("few rays, many variates".to_owned(), self.many(samplers, &pools.wanted)));
         groups
     }
 
     /// Calls of few rays, one thread.
-    fn calls<'a>(&self, pool: &'a ThreadPool) -> Vec<Contestant<'a>> {
+    fn calls<'a>(&self, samplers: &[Sampler], pool: &'a ThreadPool) -> Vec<Contestant<'a>> {
         let Some(backend) = self.fastest() else { return Vec::new() };
-        let of_strategy = |strategy| {
-            let one = Contestant { work: Work::OneByOne { strategy, backend }, samples: 1, pool };
-            let calls = move |samples| Contestant { work: Work::Calls { strategy, backend }, samples, pool };
+        let of_sampler = |sampler| {
+            let kernel = Kernel::new(sampler, backend);
+            let one = Contestant { work: Work::OneByOne(kernel), samples: 1, pool };
+            let calls = move |samples| Contestant { work: Work::Calls(kernel), samples, pool };
             [one].into_iter().chain(FEW.map(calls))
         };
-        self.strategies().into_iter().flat_map(of_strategy).collect()
+        samplers.iter().flat_map(of_sampler).collect()
     }
 
     /// Many samples for each of few rays.
-    fn many<'a>(&self, pools: &'a [ThreadPool]) -> Vec<Contestant<'a>> {
-        let Some(backend) = self.fastest().filter(|_| self.has_many()) else { return Vec::new() };
-        let of_pool = |pool| {
-            MANY.map(|(rays, per_ray)| {
-                let work = Work::Sample { strategy: OF_MANY, backend, per_ray, wanted: Wanted::Densities };
-                Contestant { work, samples: rays * per_ray, pool }
-            })
-        };
-        pools.iter().flat_map(of_pool).collect()
+    fn many<'a>(&self, samplers: &[Sampler], pools: &'a [ThreadPool]) -> Vec<Contestant<'a>> {
+        let Some(backend) = self.fastest().filter(|_| self.has_many(samplers)) else { return Vec::new() };
+        let mut contestants = Vec::new();
+        for pool in pools {
+            for sampler in samplers.iter().filter(|sampler| sampler.strategy() == OF_MANY) {
+                let kernel = Kernel::new(sampler, backend);
+                contestants.extend(MANY.map(|(rays, per_ray)| {
+                    let work = Work::Sample { kernel, per_ray, wanted: Wanted::Densities };
+                    Contestant { work, samples: rays * per_ray, pool }
+                }));
+            }
+        }
+        contestants
     }
 
     /// All that is measured on batches of one size.
-    fn batches<'a>(&self, rays: usize, pools: &'a [ThreadPool], peers: Option<&'a Peers>) -> Vec<Contestant<'a>> {
+    fn batches<'a>(
+        &self,
+        rays: usize,
+        samplers: &[Sampler],
+        pools: &'a [ThreadPool],
+        peers: &'a [Peers],
+    ) -> Vec<Contestant<'a>> {
         let backends = self.backends(rays);
-        let strategies = self.strategies();
         let mut contestants = Vec::new();
         for pool in pools {
             let alone = pool.current_num_threads() == 1;
             let mut enter = |work| contestants.push(Contestant { work, samples: rays, pool });
             Stream::ALL.into_iter().for_each(|stream| enter(Work::Stream(stream)));
             for &backend in &backends {
-                for &strategy in &strategies {
-                    let sample = |per_ray, wanted| Work::Sample { strategy, backend, per_ray, wanted };
+                for sampler in samplers {
+                    let kernel = Kernel::new(sampler, backend);
+                    let sample = |per_ray, wanted| Work::Sample { kernel, per_ray, wanted };
                     enter(sample(1, Wanted::Densities));
                     if alone && rays <= LARGEST_OF_ALL {
                         for stage in [Stage::Geometry, Stage::SetUp, Stage::Inversion] {
-                            enter(Work::UpTo { strategy, backend, stage });
+                            enter(Work::UpTo { kernel, stage });
                         }
                         enter(sample(1, Wanted::Weights));
                         if rays.is_multiple_of(SHARED) {
@@ -254,7 +289,9 @@ impl Args {
                     }
                 }
             }
-            if let Some(peers) = peers.filter(|_| alone) {
+            // Where there is something to compare them with.
+            let beside = |peers: &&Peers| alone && backends.iter().any(|b| b.name() == peers.backend.name());
+            for peers in peers.iter().filter(beside) {
                 Peer::ALL.into_iter().for_each(|peer| enter(Work::Peer(peers, peer)));
             }
         }

@@ -12,7 +12,7 @@ use self::image_file::ImageFile;
 use crate::arguments::{self, Json};
 use crate::output::{self, Target};
 use crate::progress;
-use airlight::Strategy;
+use airlight::{Precision, Sampler, Strategy};
 use airlight_tools::renderer::Settings;
 use airlight_tools::renderer::emitter_choice::EmitterChoice;
 use airlight_tools::renderer::picture::{Picture, Size};
@@ -36,6 +36,9 @@ pub(crate) struct Args {
     scene: Name,
     #[arg(long, value_name = "NAME", help = format!("Strategy of the distances [default: product-5]; with --compare it may be repeated [default: all of {}]", names()))]
     strategy: Vec<Strategy>,
+    /// Precision of the distances: exact, or fast, with --compare of the strategies that have it
+    #[arg(long, value_name = "NAME", default_value_t)]
+    precision: Precision,
     /// Sample every ray from the transmittance too, and combine the two samples by the balance heuristic
     #[arg(long)]
     mis: bool,
@@ -96,14 +99,15 @@ pub(crate) fn run(args: &Args) -> Result<()> {
 
 /// Renders with one strategy.
 fn single(args: &Args, scene: &Scene) -> Result<(Figures, Picture)> {
-    let settings = args.settings(args.strategy.first().copied().unwrap_or_default());
+    let strategy = args.strategy.first().copied().unwrap_or_default();
+    let settings = args.settings(Sampler::new(strategy).with_precision(args.precision)?);
     let progress = progress::bar(exposure::STEPS)?;
-    progress.set_message(settings.strategy.name());
+    progress.set_message(strategy.name());
     let mut exposure = Exposure::new(scene, args.size, &settings, args.budget());
     Exposure::complete(from_mut(&mut exposure), &progress)?;
     progress.finish_and_clear();
     let figures =
-        Figures { job: args.job(), run: Run::new(settings.strategy, &exposure), radiance: exposure.film.average() };
+        Figures { job: args.job(), run: Run::new(&settings.sampler, &exposure), radiance: exposure.film.average() };
     Ok((figures, exposure.film.picture()))
 }
 
@@ -122,8 +126,8 @@ fn deliver<F: Serialize + Display>(
 }
 
 impl Args {
-    fn settings(&self, strategy: Strategy) -> Settings {
-        Settings { strategy, mis: self.mis, choice: self.lights, seed: self.seed }
+    fn settings(&self, sampler: Sampler) -> Settings {
+        Settings { sampler, mis: self.mis, choice: self.lights, seed: self.seed }
     }
 
     fn budget(&self) -> Budget {

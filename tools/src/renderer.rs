@@ -32,7 +32,7 @@ use self::scattering::Scattering;
 use self::scene::Scene;
 use self::shadow::ShadowQueue;
 use self::variate::{Dimension, Variates};
-use airlight::{Error, Strategy};
+use airlight::{Error, Sampler};
 use std::time::{Duration, Instant};
 
 /// Pixels of a wave: enough to keep the threads busy, few enough for the queues to stay in the cache.
@@ -41,8 +41,8 @@ const WAVE: usize = 1 << 15;
 /// How a scene is rendered.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
-    /// The density of the distances.
-    pub strategy: Strategy,
+    /// What the distances are sampled with.
+    pub sampler: Sampler,
     /// Whether a second distance is sampled from the transmittance and the two are combined.
     pub mis: bool,
     /// How the emitter that lights a ray is chosen.
@@ -77,7 +77,7 @@ impl<'a> Renderer<'a> {
             view: View::new(&scene.camera, size),
             seed: settings.seed,
             choice: Choice::new(settings.choice),
-            scattering: Scattering::new(settings.strategy, settings.mis),
+            scattering: Scattering::new(settings.sampler, settings.mis),
             rays: RayQueue::default(),
             hits: Vec::new(),
             shadows: ShadowQueue::default(),

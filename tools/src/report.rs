@@ -16,6 +16,7 @@ use self::findings::Findings;
 use self::jobs::Jobs;
 use crate::output::{self, Target};
 use crate::{arguments, progress};
+use airlight::Precision;
 use anyhow::{Context, Result};
 use std::fs;
 use std::path::PathBuf;
@@ -44,6 +45,19 @@ pub(crate) struct Args {
     /// Rounds of timing [default: 9, or 3 with --quick]
     #[arg(long, value_name = "ROUNDS", value_parser = arguments::positive)]
     rounds: Option<usize>,
+    /// Precision to measure, exact or fast, may be repeated [default: both]; figures of one precision show the first
+    #[arg(long, value_name = "NAME")]
+    precision: Vec<Precision>,
+    /// Measure the kernels of a shared library as well, as of `airlight profile`; may be repeated
+    #[arg(long, value_name = "[BACKEND=]LIBRARY.so")]
+    peers: Vec<String>,
+}
+
+impl Args {
+    /// That of figures which show one alone.
+    fn main_precision(&self) -> Precision {
+        self.precision.first().copied().unwrap_or_default()
+    }
 }
 
 /// Measures everything, then writes everything.
@@ -57,12 +71,12 @@ pub(crate) fn run(args: &Args) -> Result<()> {
     let measured = jobs.measure(&bar)?;
     bar.finish_and_clear();
 
-    let findings = Findings::new(&measured);
+    let findings = Findings::new(&measured, args.main_precision());
     let drawn = figures::all(&findings)?;
     for (name, json) in measured.files()? {
         file(name)?.write(&json)?;
     }
-    file("summary.json")?.write(&output::json(&findings.strategies)?)?;
+    file("summary.json")?.write(&output::json(&findings.all)?)?;
     for drawing in drawn.iter().flat_map(|figure| &figure.drawings) {
         file(&format!("{}.svg", drawing.name))?.write(drawing.file().as_bytes())?;
         file(&format!("{}.png", drawing.name))?.write(&drawing.png()?)?;

@@ -10,7 +10,7 @@ use crate::progress::{self, Part};
 use crate::strata::Strata;
 use crate::validity::Validity;
 use crate::wavefront::Wavefront;
-use airlight::{Counts, Media, Medium, Sampler, Samples, Strategy};
+use airlight::{Counts, Media, Medium, Precision, Sampler, Samples, Strategy};
 use airlight_tools::variates;
 use anyhow::{Context, Result, ensure};
 use std::path::PathBuf;
@@ -31,6 +31,9 @@ pub(crate) struct Args {
     rays: usize,
     #[arg(long, value_name = "NAME", help = format!("Strategy to run, may be repeated [default: all of {}]", names()))]
     strategy: Vec<Strategy>,
+    /// Precision of the samplers: exact, or fast, of the strategies that have it
+    #[arg(long, value_name = "NAME", default_value_t)]
+    precision: Precision,
     /// Rays of the wavefront to compare with quadrature
     #[arg(long, value_name = "RAYS", default_value_t = 4096)]
     check: usize,
@@ -57,7 +60,7 @@ pub(crate) fn run(args: &Args) -> Result<()> {
         .build()
         .context("cannot start the threads")?;
 
-    let progress = progress::bar(args.steps())?;
+    let progress = progress::bar(args.steps()?)?;
     let (figures, columns) = pool.install(|| measure(args, Part::whole(&progress)))?;
     progress.finish_and_clear();
 
@@ -68,8 +71,9 @@ pub(crate) fn run(args: &Args) -> Result<()> {
     output::report(&figures, json.as_ref())
 }
 
-/// The figures of every strategy, and the first repetition of the last.
+/// The figures of every sampler, and the first repetition of the last.
 pub(crate) fn measure(args: &Args, progress: Part<'_>) -> Result<(Figures, Columns)> {
+    let samplers = args.samplers()?;
     let wavefront = &args.wavefront.as_deref().map_or_else(Wavefront::cornell, Wavefront::read)?;
     let check = |i| wavefront.ray(i).and(wavefront.variate(i)).map(|_| ());
     let validity = Validity::of(wavefront.len(), check);
@@ -79,9 +83,9 @@ pub(crate) fn measure(args: &Args, progress: Part<'_>) -> Result<(Figures, Colum
 
     let mut rows = Vec::new();
     let mut first = Columns::default();
-    for &strategy in args.strategies() {
-        progress.tell(strategy.name());
-        let run = sample(args, wavefront, strategy, progress)?;
+    for sampler in samplers {
+        progress.tell(sampler.strategy().name());
+        let run = sample(args, wavefront, sampler, progress)?;
         rows.push(run.row(args, wavefront, &check));
         first = run.first;
     }
@@ -100,19 +104,19 @@ pub(crate) fn measure(args: &Args, progress: Part<'_>) -> Result<(Figures, Colum
 }
 
 impl Args {
-    fn strategies(&self) -> &[Strategy] {
-        if self.strategy.is_empty() { Strategy::ALL } else { &self.strategy }
+    fn samplers(&self) -> Result<Vec<Sampler>> {
+        arguments::samplers(&self.strategy, &[self.precision])
     }
 
     /// Samples to draw in all.
-    pub(crate) fn steps(&self) -> usize {
-        self.strategies().len().saturating_mul(self.rays)
+    pub(crate) fn steps(&self) -> Result<usize> {
+        Ok(self.samplers()?.len().saturating_mul(self.rays))
     }
 }
 
-/// What one strategy made of the wavefront.
+/// What one sampler made of the wavefront.
 struct Run {
-    strategy: Strategy,
+    sampler: Sampler,
     counts: Counts,
     /// Time inside the sampler alone.
     sampling: Duration,
@@ -129,9 +133,8 @@ pub(crate) struct Columns {
 }
 
 /// Samples the wavefront in batches of one repetition; the last one may be a part of it.
-fn sample(args: &Args, wavefront: &Wavefront, strategy: Strategy, progress: Part<'_>) -> Result<Run> {
+fn sample(args: &Args, wavefront: &Wavefront, sampler: Sampler, progress: Part<'_>) -> Result<Run> {
     let reached = args.rays.min(wavefront.len());
-    let sampler = Sampler::new(strategy);
     let media = Media::One(args.medium);
     let (mut counts, mut sampling) = (Counts::default(), Duration::ZERO);
     let mut strata = Strata::new(reached);
@@ -157,16 +160,18 @@ fn sample(args: &Args, wavefront: &Wavefront, strategy: Strategy, progress: Part
         }
         progress.inc(count);
     }
-    Ok(Run { strategy, counts, sampling, strata, first })
+    Ok(Run { sampler, counts, sampling, strata, first })
 }
 
 impl Run {
     fn row(&self, args: &Args, wavefront: &Wavefront, check: &Check) -> Row {
+        let strategy = self.sampler.strategy();
         let whole = self.strata.all();
-        let subset = check.compare(self.strategy, &self.strata);
-        let errors = check.cdf_errors(self.strategy, &wavefront.u, &self.first.t, &self.first.pdf);
+        let subset = check.compare(strategy, &self.strata);
+        let errors = check.cdf_errors(strategy, &wavefront.u, &self.first.t, &self.first.pdf);
         Row {
-            strategy: self.strategy.name(),
+            strategy: strategy.name(),
+            precision: self.sampler.precision().name(),
             rays: args.rays,
             msamples_per_s: args.rays as f64 / (1e6 * self.sampling.as_secs_f64()),
             sampled: self.counts.sampled,

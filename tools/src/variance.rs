@@ -9,9 +9,9 @@ use self::source::Source;
 use crate::arguments::{self, Json};
 use crate::progress::Part;
 use crate::{output, progress};
-use airlight::{Medium, Strategy};
+use airlight::{Medium, Precision, Strategy};
 use airlight_tools::contender::Contender;
-use anyhow::Result;
+use anyhow::{Result, ensure};
 use rayon::prelude::*;
 
 /// Scenes of a set, unless told otherwise.
@@ -37,6 +37,9 @@ pub(crate) struct Args {
     seed: u64,
     #[arg(long, value_name = "NAME", help = format!("Density to measure, may be repeated [default: all of {}]", names()))]
     strategy: Vec<Contender>,
+    /// Precision: exact alone, as variances are those of the densities by quadrature in f64 and take no samples
+    #[arg(long, value_name = "NAME", default_value_t)]
+    precision: Precision,
     /// Search for the scenes on which the product densities do worst, by climbing from random ones
     #[arg(long)]
     adversarial: bool,
@@ -46,6 +49,11 @@ pub(crate) struct Args {
 
 /// Runs the comparison, or the search.
 pub(crate) fn run(args: &Args) -> Result<()> {
+    ensure!(
+        args.precision == Precision::Exact,
+        "--precision {}: variances are those of the densities in exact arithmetic, by quadrature",
+        args.precision
+    );
     let json = args.json.target()?;
     if args.adversarial {
         return output::report(&adversarial::search(args)?, json.as_ref());

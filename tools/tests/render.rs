@@ -1,6 +1,6 @@
 //! `airlight render` as it is met from outside, and its pictures held against quadrature.
 
-use airlight::{Emitter, Ray, Strategy, oracle};
+use airlight::{Emitter, Ray, Sampler, Strategy, oracle};
 use airlight_tools::renderer::camera::{Camera, View};
 use airlight_tools::renderer::emitter_choice::EmitterChoice;
 use airlight_tools::renderer::film::{Film, Layer};
@@ -223,7 +223,7 @@ fn assert_near(deviations: &[f64], what: &str) {
 }
 
 fn settings(strategy: Strategy, mis: bool, choice: EmitterChoice) -> Settings {
-    let settings = Settings { strategy, mis, choice, seed: SEED };
+    let settings = Settings { sampler: Sampler::new(strategy), mis, choice, seed: SEED };
     println!("{settings:?}");
     settings
 }

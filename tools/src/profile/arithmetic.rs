@@ -2,7 +2,7 @@
 
 use super::clock::{nanoseconds, warm_up};
 use super::subject::Subject;
-use airlight::{Backend, Limit, Operations, Sampler, Strategy};
+use airlight::{Backend, Limit, Operations, Sampler};
 use airlight_tools::workload::{Wanted, Workload};
 use anyhow::Result;
 use rayon::ThreadPool;
@@ -63,9 +63,9 @@ pub(super) struct Need {
 }
 
 impl Need {
-    pub(super) fn of(strategy: Strategy, rays: usize, workload: &mut Workload) -> Result<Self> {
+    pub(super) fn of(sampler: &Sampler, rays: usize, workload: &mut Workload) -> Result<Self> {
         let mut call = workload.call(rays, 1, Wanted::Densities);
-        let (sampler, samples) = (Sampler::new(strategy), &mut call.samples);
+        let samples = &mut call.samples;
         let Operations { multiply_adds, additions, divisions } =
             sampler.operations(&call.rays, &call.emitters, &call.media, call.u, samples)?;
         let per_ray = |count: usize| count as f64 / rays as f64;

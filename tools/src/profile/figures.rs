@@ -7,7 +7,7 @@ use super::peers::Peer;
 use super::rounds::{Spread, Times};
 use super::streams::Stream;
 use super::subject::{Subject, TOTAL};
-use airlight::{Backend, Strategy};
+use airlight::{Backend, Precision, Sampler, Strategy};
 use serde::Serialize;
 
 /// A row per time and ratio.
@@ -35,6 +35,8 @@ pub(crate) struct Row {
     /// The limit that the kernel is nearest to, and how near: the share of its time that the limit alone would take.
     pub(crate) bound_by: Option<&'static str>,
     pub(crate) share: Option<f64>,
+    /// What 0.1 % of rays exceed in `|CDF(t) - u|`, of a peer; ours is in `airlight accuracy`.
+    pub(crate) cdf_p999: Option<f64>,
 }
 
 impl Row {
@@ -53,6 +55,7 @@ impl Row {
             gb_per_s: stream.map(|stream| stream.bytes_per_ray() as f64 / median),
             bound_by: None,
             share: None,
+            cdf_p999: None,
         }
     }
 
@@ -70,13 +73,18 @@ impl Row {
             gb_per_s: None,
             bound_by: None,
             share: None,
+            cdf_p999: None,
         }
     }
 }
 
 impl Figures {
-    /// From all that was measured, and what the strategies need.
-    pub(super) fn new(measured: &[(Subject, Times)], needs: &[(Strategy, Need)]) -> Self {
+    /// From all that was measured, what the samplers need, and the errors of peers.
+    pub(super) fn new(
+        measured: &[(Subject, Times)],
+        needs: &[(Sampler, Need)],
+        peers_errors: &[(Subject, f64)],
+    ) -> Self {
         let of = |wanted: Subject| measured.iter().find(|(subject, _)| *subject == wanted).map(|(_, times)| times);
         let mut rows = Vec::new();
         for (subject, times) in measured {
@@ -88,7 +96,11 @@ impl Figures {
                 }
                 // The ends of stages; how long each takes comes with the whole.
                 Some("geometry" | "set-up" | "inversion") => {}
-                _ => rows.push(Row::time(*subject, times)),
+                _ => {
+                    let of = |(of, _): &&(Subject, f64)| (of.peer, of.backend) == (subject.peer, subject.backend);
+                    let cdf_p999 = peers_errors.iter().find(of).map(|(_, error)| *error);
+                    rows.push(Row { cdf_p999, ..Row::time(*subject, times) });
+                }
             }
         }
         Self(rows)
@@ -111,9 +123,12 @@ fn stages<'a>(subject: &Subject, total: &Times, of: impl Fn(Subject) -> Option<&
 }
 
 /// A kernel's time beside the limit that it is nearest to.
-fn bounded<'a>(row: Row, needs: &[(Strategy, Need)], of: impl Fn(Subject) -> Option<&'a Times>) -> Row {
-    let Subject { strategy, backend, threads, rays, samples_per_ray, .. } = row.subject;
-    let need = needs.iter().find(|(of, _)| Some(of.name()) == strategy && samples_per_ray == 1).map(|(_, need)| need);
+fn bounded<'a>(row: Row, needs: &[(Sampler, Need)], of: impl Fn(Subject) -> Option<&'a Times>) -> Row {
+    let Subject { strategy, precision, backend, threads, rays, samples_per_ray, .. } = row.subject;
+    let is_of = |of: &Sampler| {
+        (Some(of.strategy().name()), Some(of.precision().name())) == (strategy, precision) && samples_per_ray == 1
+    };
+    let need = needs.iter().find(|(of, _)| is_of(of)).map(|(_, need)| need);
     let backend = Backend::available().find(|available| Some(available.name()) == backend);
     let (Some(need), Some(backend)) = (need, backend) else { return row };
     let one = |limit, backend, rays| {
@@ -152,10 +167,14 @@ fn ratios<'a>(subject: &Subject, ours: &Times, of: impl Fn(Subject) -> Option<&'
     let faster_than = |other| of(other).map(|theirs| theirs.over(ours));
     add(*subject, "portable", faster_than(Subject { backend: Some("portable"), ..*subject }));
     add(*subject, "one thread", faster_than(Subject { threads: 1, ..*subject }));
+    if subject.precision == Some(Precision::Fast.name()) {
+        let exact = Some(Precision::Exact.name());
+        add(*subject, "exact", faster_than(Subject { precision: exact, ..*subject }));
+    }
     let strategy = Strategy::ALL.iter().find(|strategy| Some(strategy.name()) == subject.strategy);
     if let Some(peer) = strategy.and_then(|&strategy| Peer::of(strategy)) {
         let peer = Some(peer.name());
-        let theirs = Subject { peer, strategy: None, backend: None, ..*subject };
+        let theirs = Subject { peer, strategy: None, precision: None, ..*subject };
         add(Subject { peer, ..*subject }, "peer", faster_than(theirs));
     }
     if strategy == Some(&Strategy::TaylorPhase) {

@@ -1,10 +1,36 @@
-//! Kernels of others, out of a shared library with the functions `peer_*` on a `PeerBatch`.
+//! Kernels of others, out of shared libraries with the functions `peer_*` on a `PeerBatch`, one for each width.
 
-use airlight::{Samples, Strategy};
-use airlight_tools::workload::{Call, EMITTER, MEDIUM};
+use super::subject::{Subject, TOTAL};
+use crate::arguments;
+use airlight::oracle::Scene;
+use airlight::{Backend, Ray, Samples, Strategy};
+use airlight_tools::errors::quantile;
+use airlight_tools::workload::{Call, EMITTER, MEDIUM, Wanted, Workload, emitter, medium};
 use anyhow::{Context, Result};
 use libloading::Library;
-use std::path::Path;
+use rayon::prelude::*;
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+/// Where a library is, and the backend whose width it has; none is the widest that is measured.
+#[derive(Clone, Debug)]
+pub(super) struct Source {
+    pub(super) backend: Option<Backend>,
+    pub(super) path: PathBuf,
+}
+
+impl FromStr for Source {
+    type Err = String;
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text.split_once('=') {
+            // A path of several parts may have a sign in one of them.
+            Some((name, path)) if !name.contains(['/', '\\']) => {
+                Ok(Self { backend: Some(arguments::backend(name)?), path: path.into() })
+            }
+            _ => Ok(Self { backend: None, path: text.into() }),
+        }
+    }
+}
 
 /// A kernel of theirs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,6 +67,15 @@ impl Peer {
         }
     }
 
+    /// What it samples.
+    fn strategy(self) -> Strategy {
+        match self {
+            Self::EquiAngular => Strategy::EquiAngular,
+            Self::PointNormal => Strategy::PointNormal,
+            Self::TaylorTransmittance4 | Self::TaylorTransmittance8 => Strategy::TaylorTransmittance,
+        }
+    }
+
     fn symbol(self) -> &'static str {
         match self {
             Self::EquiAngular => "peer_equiangular",
@@ -65,16 +100,18 @@ struct Batch {
 /// Samples the rays from one index up to another.
 type Kernel = unsafe extern "C" fn(*const Batch, usize, usize);
 
-/// Their kernels.
+/// The kernels of a library.
 #[derive(Debug)]
 pub(super) struct Peers {
+    /// The one of their width.
+    pub(super) backend: Backend,
     kernels: [Kernel; Peer::ALL.len()],
     /// Keeps their code in memory.
     _library: Library,
 }
 
 impl Peers {
-    pub(super) fn load(path: &Path) -> Result<Self> {
+    pub(super) fn load(path: &Path, backend: Backend) -> Result<Self> {
         let name = path.display();
         // SAFETY: whoever names the library vouches for what its initialisers do.
         let library = unsafe { Library::new(path) }.with_context(|| format!("cannot load {name}"))?;
@@ -85,7 +122,29 @@ impl Peers {
             kernels.push(*kernel.with_context(|| format!("{name} has no {}", peer.symbol()))?);
         }
         let kernels = kernels.try_into().expect("one for each");
-        Ok(Self { kernels, _library: library })
+        Ok(Self { backend, kernels, _library: library })
+    }
+
+    /// Of a time of one of them, where the rest of the subject is known.
+    pub(super) fn subject(&self, peer: Peer, of: Subject) -> Subject {
+        Subject { peer: Some(peer.name()), backend: Some(self.backend.name()), stage: Some(TOTAL), ..of }
+    }
+
+    /// What 0.1 % of the first `rays` rays exceed in `|CDF(t) - u|`.
+    pub(super) fn cdf_p999(&self, peer: Peer, rays: usize, workload: &mut Workload) -> f64 {
+        let cases = workload.one_by_one(rays);
+        let mut call = workload.call(rays, 1, Wanted::Densities);
+        self.sample(peer, &mut call);
+        let (emitter, medium) = (emitter(), medium());
+        let error = |(((ray, u), &t), &pdf): ((&(Ray, f32), &f32), &f32)| {
+            let error = || (Scene::new(ray, &emitter, &medium).cdf(peer.strategy(), t.into()) - f64::from(*u)).abs();
+            // What is no number is as bad as can be.
+            (pdf > 0.0).then(|| if t.is_finite() { error() } else { 1.0 })
+        };
+        let drawn = cases.par_iter().zip(&*call.samples.t).zip(&*call.samples.pdf);
+        let mut errors: Vec<f64> = drawn.filter_map(error).collect();
+        errors.sort_by(f64::total_cmp);
+        quantile(&errors, 0.999)
     }
 
     /// Draws one sample for every ray.

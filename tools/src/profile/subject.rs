@@ -13,8 +13,10 @@ pub(super) const ONE: &str = "one";
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub(crate) struct Subject {
     pub(crate) strategy: Option<&'static str>,
+    pub(crate) precision: Option<&'static str>,
+    /// Of a peer, the one of its width.
     pub(crate) backend: Option<&'static str>,
-    /// A kernel of the library of peers.
+    /// A kernel of a library of peers.
     pub(crate) peer: Option<&'static str>,
     /// A limit of the machine: `fma`, `division` (an operation of one lane); `read`, `write`, `stream` (a ray).
     pub(crate) limit: Option<&'static str>,

@@ -4,7 +4,7 @@ use super::clock::{nanoseconds, warm_up};
 use super::peers::{Peer, Peers};
 use super::streams::Stream;
 use super::subject::{CALL, ONE, Subject, TOTAL};
-use airlight::{Backend, Sampler, Stage, Strategy};
+use airlight::{Backend, Sampler, Stage};
 use airlight_tools::workload::{Wanted, Workload, emitter, medium};
 use anyhow::Result;
 use rayon::ThreadPool;
@@ -15,21 +15,34 @@ pub(super) const LEAST: usize = 1 << 16;
 /// Calls that a measurement of calls takes at most.
 const CALLS: usize = 1 << 12;
 
+/// A sampler on a backend.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Kernel {
+    sampler: Sampler,
+    backend: Backend,
+}
+
+impl Kernel {
+    pub(super) fn new(sampler: &Sampler, backend: Backend) -> Self {
+        Self { sampler: sampler.with_backend(backend), backend }
+    }
+}
+
 /// Something that is done to a batch.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Work<'a> {
-    /// All of a strategy's kernel, with so many samples per ray.
-    Sample { strategy: Strategy, backend: Backend, per_ray: usize, wanted: Wanted },
+    /// All of a kernel, with so many samples per ray.
+    Sample { kernel: Kernel, per_ray: usize, wanted: Wanted },
     /// The kernel up to a stage.
-    UpTo { strategy: Strategy, backend: Backend, stage: Stage },
+    UpTo { kernel: Kernel, stage: Stage },
     /// Columns that are read and written.
     Stream(Stream),
     /// A kernel of others.
     Peer(&'a Peers, Peer),
     /// Calls of so few rays, one after the other, each of the next rays.
-    Calls { strategy: Strategy, backend: Backend },
+    Calls(Kernel),
     /// The same of [`Sampler::sample_one`].
-    OneByOne { strategy: Strategy, backend: Backend },
+    OneByOne(Kernel),
 }
 
 /// Work of the threads of a pool on so many samples.
@@ -48,32 +61,33 @@ impl Contestant<'_> {
             samples_per_ray: 1,
             ..Subject::default()
         };
-        let of = |strategy: Strategy, backend: Backend, stage| Subject {
-            strategy: Some(strategy.name()),
+        let of = |Kernel { sampler, backend }: Kernel, stage| Subject {
+            strategy: Some(sampler.strategy().name()),
+            precision: Some(sampler.precision().name()),
             backend: Some(backend.name()),
             stage: Some(stage),
             ..subject
         };
         match self.work {
-            Work::Sample { strategy, backend, per_ray, wanted } => {
+            Work::Sample { kernel, per_ray, wanted } => {
                 let stage = match wanted {
                     Wanted::Densities => TOTAL,
                     Wanted::Weights => "with-weight",
                 };
-                Subject { rays: Some(self.samples / per_ray), samples_per_ray: per_ray, ..of(strategy, backend, stage) }
+                Subject { rays: Some(self.samples / per_ray), samples_per_ray: per_ray, ..of(kernel, stage) }
             }
-            Work::UpTo { strategy, backend, stage } => {
+            Work::UpTo { kernel, stage } => {
                 let stage = match stage {
                     Stage::Geometry => "geometry",
                     Stage::SetUp => "set-up",
                     Stage::Inversion => "inversion",
                 };
-                of(strategy, backend, stage)
+                of(kernel, stage)
             }
             Work::Stream(stream) => Subject { limit: Some(stream.name()), ..subject },
-            Work::Peer(_, peer) => Subject { peer: Some(peer.name()), stage: Some(TOTAL), ..subject },
-            Work::Calls { strategy, backend } => of(strategy, backend, CALL),
-            Work::OneByOne { strategy, backend } => of(strategy, backend, ONE),
+            Work::Peer(peers, peer) => peers.subject(peer, subject),
+            Work::Calls(kernel) => of(kernel, CALL),
+            Work::OneByOne(kernel) => of(kernel, ONE),
         }
     }
 
@@ -96,7 +110,7 @@ impl Contestant<'_> {
     /// How often a measurement does its task.
     fn times(&self) -> usize {
         match self.work {
-            Work::Calls { .. } | Work::OneByOne { .. } => 1,
+            Work::Calls(_) | Work::OneByOne(_) => 1,
             _ => LEAST.div_ceil(self.samples),
         }
     }
@@ -104,7 +118,7 @@ impl Contestant<'_> {
     /// Samples of its task.
     fn at_once(&self) -> usize {
         match self.work {
-            Work::Calls { .. } | Work::OneByOne { .. } => self.calls() * self.samples,
+            Work::Calls(_) | Work::OneByOne(_) => self.calls() * self.samples,
             _ => self.samples,
         }
     }
@@ -118,9 +132,7 @@ impl Contestant<'_> {
     fn shortened(&self) -> Self {
         let samples = self.samples.min(LEAST);
         let work = match self.work {
-            Work::Sample { strategy, backend, per_ray, wanted } => {
-                Work::Sample { strategy, backend, per_ray: per_ray.min(samples), wanted }
-            }
+            Work::Sample { kernel, per_ray, wanted } => Work::Sample { kernel, per_ray: per_ray.min(samples), wanted },
             work => work,
         };
         Self { work, samples, ..*self }
@@ -133,18 +145,16 @@ impl Contestant<'_> {
     {
         let Self { work, samples, .. } = *self;
         match work {
-            Work::Sample { strategy, backend, per_ray, wanted } => {
+            Work::Sample { kernel, per_ray, wanted } => {
                 let mut call = workload.call(samples / per_ray, per_ray, wanted);
-                let sampler = Sampler::new(strategy).with_backend(backend);
                 Box::new(move || {
-                    black_box(call.sample(&sampler)?);
+                    black_box(call.sample(&kernel.sampler)?);
                     Ok(())
                 })
             }
-            Work::UpTo { strategy, backend, stage } => {
+            Work::UpTo { kernel, stage } => {
                 let call = workload.call(samples, 1, Wanted::Densities);
-                let sampler = Sampler::new(strategy).with_backend(backend);
-                Box::new(move || Ok(sampler.up_to(stage, &call.rays, &call.emitters, &call.media, call.u)?))
+                Box::new(move || Ok(kernel.sampler.up_to(stage, &call.rays, &call.emitters, &call.media, call.u)?))
             }
             Work::Stream(stream) => {
                 let mut call = workload.call(samples, 1, Wanted::Densities);
@@ -160,24 +170,22 @@ impl Contestant<'_> {
                     Ok(())
                 })
             }
-            Work::Calls { strategy, backend } => {
+            Work::Calls(kernel) => {
                 let calls = self.calls();
                 let mut all = workload.call(calls * samples, 1, Wanted::Densities);
-                let sampler = Sampler::new(strategy).with_backend(backend);
                 Box::new(move || {
                     for call in 0..calls {
-                        black_box(all.part(call * samples, samples).sample(&sampler)?);
+                        black_box(all.part(call * samples, samples).sample(&kernel.sampler)?);
                     }
                     Ok(())
                 })
             }
-            Work::OneByOne { strategy, backend } => {
+            Work::OneByOne(kernel) => {
                 let rays = workload.one_by_one(self.calls());
                 let (emitter, medium) = (emitter(), medium());
-                let sampler = Sampler::new(strategy).with_backend(backend);
                 Box::new(move || {
                     for (ray, u) in &rays {
-                        black_box(sampler.sample_one(ray, &emitter, &medium, *u));
+                        black_box(kernel.sampler.sample_one(ray, &emitter, &medium, *u));
                     }
                     Ok(())
                 })
@@ -189,13 +197,14 @@ impl Contestant<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use airlight::Strategy;
 
     #[test]
     fn a_warm_up_draws_some_samples_and_not_too_many() {
         let pool = airlight_tools::threads::pool(1).unwrap();
-        let (strategy, backend, wanted) = (Strategy::Product9, Backend::detect(), Wanted::Densities);
+        let kernel = Kernel::new(&Sampler::new(Strategy::Product9), Backend::detect());
         for (samples, per_ray) in [(64, 1), (1 << 20, 1), (1 << 20, 8), (1 << 22, 1 << 22)] {
-            let work = Work::Sample { strategy, backend, per_ray, wanted };
+            let work = Work::Sample { kernel, per_ray, wanted: Wanted::Densities };
             let warm_up = Contestant { work, samples, pool: &pool }.shortened();
             let Subject { rays, samples_per_ray, .. } = warm_up.subject();
             assert_eq!(rays.map(|rays| rays * samples_per_ray), Some(samples.min(LEAST)), "{samples}, {per_ray}");

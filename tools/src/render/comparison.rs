@@ -3,8 +3,8 @@
 use super::exposure::{Budget, Exposure, STEPS};
 use super::figures::{Job, Run};
 use super::{Args, sheet};
-use crate::{progress, table};
-use airlight::Strategy;
+use crate::{arguments, progress, table};
+use airlight::{Sampler, Strategy};
 use airlight_tools::renderer::Settings;
 use airlight_tools::renderer::film::{Film, Layer};
 use airlight_tools::renderer::picture::Picture;
@@ -41,13 +41,13 @@ struct Row {
 
 /// The figures, and the pictures side by side.
 pub(super) fn compare(args: &Args, scene: &Scene) -> Result<(Comparison, Picture)> {
-    let strategies = strategies(&args.strategy);
-    let progress = progress::bar((strategies.len() + 2) * STEPS)?;
+    let samplers = samplers(args)?;
+    let progress = progress::bar((samplers.len() + 2) * STEPS)?;
     progress.set_message("reference");
     // Its seeds are its own: shared random numbers would be shared errors.
     let half = |half: u64| {
         let seed = args.seed.wrapping_add(half << 62);
-        let settings = Settings { mis: false, seed, ..args.settings(REFERENCE) };
+        let settings = Settings { mis: false, seed, ..args.settings(Sampler::new(REFERENCE)) };
         Exposure::new(scene, args.size, &settings, Budget::Passes(args.reference.div_ceil(2) as u64))
     };
     let mut halves = [half(1), half(2)];
@@ -55,36 +55,40 @@ pub(super) fn compare(args: &Args, scene: &Scene) -> Result<(Comparison, Picture
     let reference = halves.map(|half| half.film);
 
     progress.set_message("strategies in turn");
-    let exposure = |&strategy: &Strategy| Exposure::new(scene, args.size, &args.settings(strategy), args.budget());
-    let mut exposures: Vec<Exposure<'_>> = strategies.iter().map(exposure).collect();
+    let exposure = |&sampler: &Sampler| Exposure::new(scene, args.size, &args.settings(sampler), args.budget());
+    let mut exposures: Vec<Exposure<'_>> = samplers.iter().map(exposure).collect();
     Exposure::complete(&mut exposures, &progress)?;
     progress.finish_and_clear();
 
-    let baseline = strategies.iter().position(|&strategy| strategy == BASELINE);
+    let baseline = samplers.iter().position(is_baseline);
     let airlight = Errors::new(&reference, &exposures, baseline, |film| film.mean(Layer::Airlight));
     let picture = Errors::new(&reference, &exposures, baseline, Film::total);
-    let row = |(i, (&strategy, exposure))| Row {
-        run: Run::new(strategy, exposure),
+    let row = |(i, (sampler, exposure))| Row {
+        run: Run::new(sampler, exposure),
         airlight_rmse: airlight.rmse(i),
         airlight_efficiency: airlight.efficiency(i),
         picture_rmse: picture.rmse(i),
         picture_efficiency: picture.efficiency(i),
     };
-    let results = strategies.iter().zip(&exposures).enumerate().map(row).collect();
+    let results = samplers.iter().zip(&exposures).enumerate().map(row).collect();
     let reference_passes = reference.iter().map(Film::passes).sum();
     let mut pictures = vec![("reference", mean_picture(&reference))];
-    pictures.extend(strategies.iter().zip(&exposures).map(|(strategy, e)| (strategy.name(), e.film.picture())));
+    pictures.extend(samplers.iter().zip(&exposures).map(|(sampler, e)| (sampler.strategy().name(), e.film.picture())));
     let comparison = Comparison { job: args.job(), reference_passes, results };
     Ok((comparison, sheet::lay_out(&pictures, 1.0 / scene.exposure)))
 }
 
 /// Those asked for, or all; the baseline is among them.
-fn strategies(asked: &[Strategy]) -> Vec<Strategy> {
-    let mut strategies = if asked.is_empty() { Strategy::ALL.to_vec() } else { asked.to_vec() };
-    if !strategies.contains(&BASELINE) {
-        strategies.insert(0, BASELINE);
+fn samplers(args: &Args) -> Result<Vec<Sampler>> {
+    let mut samplers = arguments::samplers(&args.strategy, &[args.precision])?;
+    if !samplers.iter().any(is_baseline) {
+        samplers.insert(0, Sampler::new(BASELINE).with_precision(args.precision)?);
     }
-    strategies
+    Ok(samplers)
+}
+
+fn is_baseline(sampler: &Sampler) -> bool {
+    sampler.strategy() == BASELINE
 }
 
 /// The mean of both halves of the reference.
@@ -151,6 +155,7 @@ impl fmt::Display for Comparison {
 
         let mut table = table::new([
             "strategy",
+            "precision",
             "passes",
             "s",
             "Msamples/s",
@@ -165,6 +170,7 @@ impl fmt::Display for Comparison {
             let efficiency = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.2}"));
             table.add_row([
                 row.run.strategy.to_owned(),
+                row.run.precision.to_owned(),
                 row.run.passes.to_string(),
                 format!("{:.2}", row.run.seconds),
                 format!("{:.2}", row.run.msamples_per_s),

@@ -2,7 +2,7 @@
 //! read.
 
 use super::exposure::Exposure;
-use airlight::Strategy;
+use airlight::Sampler;
 use serde::Serialize;
 use std::fmt;
 
@@ -23,6 +23,7 @@ pub(super) struct Job {
 #[derive(Debug, Serialize)]
 pub(super) struct Run {
     pub(super) strategy: &'static str,
+    pub(super) precision: &'static str,
     pub(super) passes: u64,
     pub(super) samples: u64,
     pub(super) seconds: f64,
@@ -43,10 +44,11 @@ pub(super) struct Figures {
 }
 
 impl Run {
-    pub(super) fn new(strategy: Strategy, exposure: &Exposure<'_>) -> Self {
+    pub(super) fn new(sampler: &Sampler, exposure: &Exposure<'_>) -> Self {
         let seconds = exposure.elapsed.as_secs_f64();
         Self {
-            strategy: strategy.name(),
+            strategy: sampler.strategy().name(),
+            precision: sampler.precision().name(),
             passes: exposure.film.passes(),
             samples: exposure.samples(),
             seconds,
@@ -66,10 +68,10 @@ impl fmt::Display for Job {
 
 impl fmt::Display for Figures {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Run { strategy, passes, samples, seconds, msamples_per_s, airlight_share } = &self.run;
+        let Run { strategy, precision, passes, samples, seconds, msamples_per_s, airlight_share } = &self.run;
         let [red, green, blue] = self.radiance;
         writeln!(f, "{}", self.job)?;
-        writeln!(f, "{strategy}: {samples} samples in {passes} passes and {seconds:.2} s")?;
+        writeln!(f, "{strategy}, {precision}: {samples} samples in {passes} passes and {seconds:.2} s")?;
         writeln!(f, "{msamples_per_s:.2} Msamples/s, {:.0} % of the time in airlight", 100.0 * airlight_share)?;
         writeln!(f, "mean radiance {red:.5e} {green:.5e} {blue:.5e}")
     }

@@ -18,11 +18,12 @@ pub struct Scattering {
 }
 
 impl Scattering {
-    /// Sampling of `strategy`, and of the transmittance besides if there is multiple importance sampling.
+    /// Sampling with `sampler`, and from the transmittance besides if there is multiple importance sampling.
     #[must_use]
-    pub fn new(strategy: Strategy, mis: bool) -> Self {
-        let strategies: &[Strategy] = if mis { &[strategy, Strategy::Transmittance] } else { &[strategy] };
-        let samplers = strategies.iter().map(|&strategy| Sampler::new(strategy)).collect();
+    pub fn new(sampler: Sampler, mis: bool) -> Self {
+        let transmittance = Sampler::new(Strategy::Transmittance);
+        let transmittance = transmittance.with_precision(sampler.precision()).unwrap_or(transmittance);
+        let samplers = [sampler].into_iter().chain(mis.then_some(transmittance)).collect();
         Self { samplers, t: Vec::new(), pdf: Vec::new(), weight: Vec::new(), other_pdf: Vec::new() }
     }
 

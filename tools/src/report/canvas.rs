@@ -4,12 +4,12 @@ use super::drawing::Drawing;
 use super::labels::{Area, beside};
 use super::palette::{self, AREA, Colour, GRID, GROUND, INK, QUIET};
 use super::scale::Scale;
-use airlight::Strategy;
+use airlight::{Precision, Strategy};
 use anyhow::{Result, anyhow};
 use plotters::chart::{ChartBuilder, ChartContext, LabelAreaPosition};
 use plotters::coord::Shift;
 use plotters::drawing::{DrawingArea, IntoDrawingArea};
-use plotters::element::{EmptyElement, PathElement, Polygon, Text};
+use plotters::element::{Circle, EmptyElement, PathElement, Polygon, Text};
 use plotters::prelude::{Cartesian2d, SVGBackend};
 use plotters::series::{AreaSeries, DashedLineSeries};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -152,9 +152,25 @@ impl Canvas<'_> {
 
     /// A strategy's marker.
     pub(super) fn marker(&mut self, strategy: Strategy, point: (f64, f64)) -> Result<()> {
-        let fill: RGBColor = palette::colour(strategy).rgb();
-        let marker = Polygon::new(palette::marker(strategy, MARKER), fill.filled());
-        self.chart.draw_series(once(EmptyElement::at(self.place(point)) + marker)).map_err(failed)?;
+        self.marker_of(strategy, Precision::Exact, point)
+    }
+
+    /// The same, hollow in fast precision.
+    pub(super) fn marker_of(&mut self, strategy: Strategy, precision: Precision, point: (f64, f64)) -> Result<()> {
+        let corners = palette::marker(strategy, MARKER);
+        let edge: Vec<(i32, i32)> = corners.iter().chain(corners.first()).copied().collect();
+        let fill: RGBColor = palette::fill(strategy, precision).rgb();
+        let marker = EmptyElement::at(self.place(point))
+            + Polygon::new(corners, fill.filled())
+            + PathElement::new(edge, stroke(palette::colour(strategy), 2 * FINE));
+        self.chart.draw_series(once(marker)).map_err(failed)?;
+        Ok(())
+    }
+
+    /// A marker of what is none of ours.
+    pub(super) fn spot(&mut self, point: (f64, f64)) -> Result<()> {
+        let spot = Circle::new((0, 0), MARKER / 3, QUIET.rgb().filled());
+        self.chart.draw_series(once(EmptyElement::at(self.place(point)) + spot)).map_err(failed)?;
         Ok(())
     }
 

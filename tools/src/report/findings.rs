@@ -1,24 +1,26 @@
-//! What the measurements say of each strategy, put together.
+//! What the measurements say of each strategy in each precision, put together.
 
 use super::jobs::Measured;
 use super::palette;
 use crate::profile::Row;
-use airlight::{Backend, Strategy};
+use airlight::{Backend, Precision, Strategy};
 use serde::Serialize;
 
 /// Rays of the batch that stands for all; of other sizes, the nearest.
 const BATCH: f64 = 65536.0;
 
-/// The figures of one strategy; the names of the fields are the keys of the JSON.
+/// The figures of one strategy in one precision; the names of the fields are the keys of the JSON.
 #[derive(Debug, Serialize)]
 pub(super) struct Finding {
     #[serde(serialize_with = "name")]
     pub(super) strategy: Strategy,
+    #[serde(serialize_with = "name")]
+    pub(super) precision: Precision,
     /// Its colour in all figures.
     colour: String,
     /// On one thread, with the fastest backend.
     pub(super) ns_per_sample: f64,
-    /// Relative variances, the mean over the four sets `canonical`, and over most of `broad`, whose mean a few decide.
+    /// Relative variances of the density, whatever the precision, the mean over the four sets `canonical`, and over most of `broad`, whose mean a few decide.
     pub(super) variance_canonical: f64,
     pub(super) variance_broad: f64,
     pub(super) variance_broad_p90: f64,
@@ -35,44 +37,69 @@ pub(super) struct Findings<'a> {
     pub(super) backend: Backend,
     /// Rays of the batch that was timed.
     pub(super) batch: usize,
-    pub(super) strategies: Vec<Finding>,
+    /// That of figures which show one alone.
+    pub(super) precision: Precision,
+    /// In every precision that was measured.
+    pub(super) all: Vec<Finding>,
 }
 
-fn name<S: serde::Serializer>(strategy: &Strategy, serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.serialize_str(strategy.name())
+/// A kernel of others: its time and what 0.1 % of rays exceed in `|CDF(t) - u|`.
+pub(super) struct Other {
+    pub(super) name: String,
+    pub(super) ns_per_sample: f64,
+    pub(super) cdf_p999: f64,
+}
+
+fn name<T: ToString, S: serde::Serializer>(named: &T, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(&named.to_string())
 }
 
 impl<'a> Findings<'a> {
-    pub(super) fn new(measured: &'a Measured) -> Self {
+    pub(super) fn new(measured: &'a Measured, precision: Precision) -> Self {
         let backend = Backend::available().next().expect("the portable one is on every machine");
         let sizes = measured.profile.0.iter().filter(|row| is_whole(row)).filter_map(|row| row.subject.rays);
         let distance = |&rays: &usize| ((rays as f64 / BATCH).log2().abs() * 1e6) as u64;
         let batch = sizes.min_by_key(distance).unwrap_or(0);
-        let mut findings = Self { measured, backend, batch, strategies: Vec::new() };
-        let of = |strategy| findings.of(strategy);
-        findings.strategies = Strategy::ALL.iter().map(|&strategy| of(strategy)).collect();
+        let mut findings = Self { measured, backend, batch, precision, all: Vec::new() };
+        for &strategy in Strategy::ALL {
+            for &precision in Precision::ALL {
+                if findings.has(strategy, precision) {
+                    findings.all.push(findings.of(strategy, precision));
+                }
+            }
+        }
         let product = |finding: &Finding| finding.variance_canonical * finding.ns_per_sample;
-        let equi_angular =
-            findings.strategies.iter().find(|finding| finding.strategy == Strategy::EquiAngular).map(product);
-        for finding in &mut findings.strategies {
+        let equi_angular = findings.of_one().find(|finding| finding.strategy == Strategy::EquiAngular).map(product);
+        for finding in &mut findings.all {
             finding.efficiency = equi_angular.unwrap_or(f64::NAN) / product(finding);
         }
         findings
     }
 
-    fn of(&self, strategy: Strategy) -> Finding {
+    /// Those in the one precision.
+    pub(super) fn of_one(&self) -> impl Iterator<Item = &Finding> {
+        self.all.iter().filter(|finding| finding.precision == self.precision)
+    }
+
+    /// Whether it was measured at all.
+    fn has(&self, strategy: Strategy, precision: Precision) -> bool {
+        self.times(precision, 1).any(|row| row.subject.strategy == Some(strategy.name()))
+    }
+
+    fn of(&self, strategy: Strategy, precision: Precision) -> Finding {
         let name = strategy.name();
         let Measured { broad, canonical, accuracy, .. } = self.measured;
         let broad = broad.0.iter().find(|row| row.strategy == name);
         let canonical: Vec<f64> =
             canonical.0.iter().filter(|row| row.strategy == name).filter_map(|row| row.mean).collect();
-        let errors =
-            accuracy.0.iter().filter(|row| row.strategy == name).max_by_key(|row| row.backend == self.backend.name());
+        let errors = accuracy.0.iter().filter(|row| (row.strategy, row.precision) == (name, precision.name()));
+        let errors = errors.max_by_key(|row| row.backend == self.backend.name());
         Finding {
             strategy,
+            precision,
             colour: palette::colour(strategy).hex(),
             ns_per_sample: self
-                .time(strategy, self.backend, 1, self.batch)
+                .time((strategy, precision), self.backend, self.batch)
                 .and_then(|row| row.ns_per_sample)
                 .unwrap_or(f64::NAN),
             variance_canonical: canonical.iter().sum::<f64>() / canonical.len() as f64,
@@ -83,18 +110,36 @@ impl<'a> Findings<'a> {
         }
     }
 
-    /// The time of a whole kernel with a sample per ray.
-    pub(super) fn time(&self, strategy: Strategy, backend: Backend, threads: usize, rays: usize) -> Option<&'a Row> {
-        self.times(threads).find(|row| {
+    /// The time of a whole kernel with a sample per ray, on one thread.
+    pub(super) fn time(
+        &self,
+        (strategy, precision): (Strategy, Precision),
+        backend: Backend,
+        rays: usize,
+    ) -> Option<&'a Row> {
+        self.times(precision, 1).find(|row| {
             row.subject.strategy == Some(strategy.name())
                 && row.subject.backend == Some(backend.name())
                 && row.subject.rays == Some(rays)
         })
     }
 
-    /// The times of all whole kernels with a sample per ray.
-    pub(super) fn times(&self, threads: usize) -> impl Iterator<Item = &'a Row> {
-        self.measured.profile.0.iter().filter(move |row| is_whole(row) && row.subject.threads == threads)
+    /// The times of all whole kernels of a precision with a sample per ray.
+    pub(super) fn times(&self, precision: Precision, threads: usize) -> impl Iterator<Item = &'a Row> {
+        let wanted =
+            move |row: &&Row| (row.subject.precision, row.subject.threads) == (Some(precision.name()), threads);
+        self.measured.profile.0.iter().filter(|row| is_whole(row)).filter(wanted)
+    }
+
+    /// The peers of the width of the backend.
+    pub(super) fn others(&self) -> Vec<Other> {
+        let of_batch =
+            |row: &&Row| (row.subject.backend, row.subject.rays) == (Some(self.backend.name()), Some(self.batch));
+        let other = |row: &Row| {
+            let name = format!("peer {}", row.subject.peer?);
+            Some(Other { name, ns_per_sample: row.ns_per_sample?, cdf_p999: row.cdf_p999? })
+        };
+        self.measured.profile.0.iter().filter(of_batch).filter_map(other).collect()
     }
 }
 

@@ -51,6 +51,10 @@ impl Jobs {
         let mut timing: Vec<String> = args.quick.then(|| "--quick".to_owned()).into_iter().collect();
         timing.extend(args.batch.iter().flat_map(|batch| option("rays", &batch.to_string())));
         timing.extend(args.rounds.iter().flat_map(|rounds| option("rounds", &rounds.to_string())));
+        timing.extend(args.peers.iter().flat_map(|peers| option("peers", peers)));
+        let precisions: Vec<String> = args.precision.iter().flat_map(|p| option("precision", p.name())).collect();
+        let main_precision = option("precision", args.main_precision().name());
+        timing.extend(precisions.clone());
         let scenes = option("scenes", &size(args.scenes, 2000, 400));
         let set = |name| [option("set", name), scenes.clone()].concat();
         let rays = option("rays", &size(args.rays, 1 << 20, 1 << 16));
@@ -61,8 +65,11 @@ impl Jobs {
             profile: Job::new("profile", &timing)?,
             broad: Job::new("variance", &set("broad"))?,
             canonical: Job::new("variance", &set("canonical"))?,
-            accuracy: Job::new("accuracy", &[option("family", "generic"), option("seed", "1"), rays].concat())?,
-            sample: Job::new("sample", &[samples, check].concat())?,
+            accuracy: Job::new(
+                "accuracy",
+                &[&option("family", "generic")[..], &option("seed", "1"), &rays, &precisions].concat(),
+            )?,
+            sample: Job::new("sample", &[samples, check, main_precision].concat())?,
         })
     }
 
@@ -77,8 +84,8 @@ impl Jobs {
         let parts = [
             (self.profile.args.steps()?, TIME),
             (variances, VARIANCE),
-            (self.accuracy.args.steps(), ERROR),
-            (self.sample.args.steps(), SAMPLE),
+            (self.accuracy.args.steps()?, ERROR),
+            (self.sample.args.steps()?, SAMPLE),
         ];
         Ok(parts.into_iter().fold(0, |sum, (steps, step)| sum.saturating_add(steps.saturating_mul(step))))
     }
@@ -89,7 +96,7 @@ impl Jobs {
             profile: profile::measure(&self.profile.args, part(TIME))?,
             broad: variance::measure(&self.broad.args, part(VARIANCE))?,
             canonical: variance::measure(&self.canonical.args, part(VARIANCE))?,
-            accuracy: accuracy::measure(&self.accuracy.args, part(ERROR)),
+            accuracy: accuracy::measure(&self.accuracy.args, part(ERROR))?,
             sample: sample::measure(&self.sample.args, part(SAMPLE))?.0,
         })
     }

@@ -21,7 +21,7 @@ pub(super) fn page(findings: &Findings<'_>, figures: &[Figure], commands: &[&str
         ("version", env!("CARGO_PKG_VERSION").to_owned()),
         ("command", escape(&format!("airlight {}", command.join(" ")))),
         ("commands", lines),
-        ("summary", summary::table(&findings.strategies)),
+        ("summary", summary::table(&findings.all)),
         ("figures", figures.iter().enumerate().map(|(i, figure)| article(i + 1, figure)).collect()),
     ];
     filled.into_iter().fold(PAGE.to_owned(), |page, (name, text)| page.replace(&format!("{{{{{name}}}}}"), &text))

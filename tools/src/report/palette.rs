@@ -1,6 +1,6 @@
 //! One colour and one marker per strategy in all figures: no two share both a hue and a shape.
 
-use airlight::Strategy;
+use airlight::{Precision, Strategy};
 use plotters::style::RGBColor;
 
 /// A colour on light and on dark ground.
@@ -62,6 +62,11 @@ fn index(strategy: Strategy) -> usize {
 
 pub(super) fn colour(strategy: Strategy) -> Colour {
     STRATEGIES[index(strategy)]
+}
+
+/// What its marker is filled with: its colour, in fast precision the ground.
+pub(super) fn fill(strategy: Strategy, precision: Precision) -> Colour {
+    if precision == Precision::Fast { GROUND } else { colour(strategy) }
 }
 
 /// The corners of the strategy's marker of a height.

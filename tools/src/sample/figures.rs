@@ -39,6 +39,7 @@ impl From<Medium> for Coefficients {
 #[derive(Debug, Serialize)]
 pub(crate) struct Row {
     pub(crate) strategy: &'static str,
+    pub(crate) precision: &'static str,
     pub(crate) rays: usize,
     pub(crate) msamples_per_s: f64,
     pub(crate) sampled: usize,
@@ -67,10 +68,11 @@ impl fmt::Display for Figures {
         writeln!(f, "{}: {} rays, {} samples per strategy", self.wavefront, self.wavefront_rays, self.rays)?;
         writeln!(f, "medium: mu_a {mu_a} /m, mu_s {mu_s} /m, g {g}; seed {}, threads {}", self.seed, self.threads)?;
 
-        let mut speed = table::new(["strategy", "Msamples/s", "sampled", "empty", "invalid", "bisected"]);
+        let mut speed = table::new(["strategy", "precision", "Msamples/s", "sampled", "empty", "invalid", "bisected"]);
         for row in &self.results {
             speed.add_row([
                 row.strategy.to_owned(),
+                row.precision.to_owned(),
                 format!("{:.1}", row.msamples_per_s),
                 row.sampled.to_string(),
                 row.empty.to_string(),
@@ -88,11 +90,22 @@ impl fmt::Display for Figures {
             writeln!(f, "{invalid}")?;
         }
 
-        let mut radiance =
-            table::new(["strategy", "radiance", "+-", "estimate", "+-", "quadrature", "z", "CDF p99.9", "CDF max"]);
+        let mut radiance = table::new([
+            "strategy",
+            "precision",
+            "radiance",
+            "+-",
+            "estimate",
+            "+-",
+            "quadrature",
+            "z",
+            "CDF p99.9",
+            "CDF max",
+        ]);
         for row in &self.results {
             radiance.add_row([
                 row.strategy.to_owned(),
+                row.precision.to_owned(),
                 figure(row.radiance, |x| format!("{x:.5e}")),
                 figure(row.radiance_stderr, |x| format!("{x:.1e}")),
                 figure(row.check_estimate, |x| format!("{x:.5e}")),

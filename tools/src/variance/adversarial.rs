@@ -2,6 +2,7 @@
 
 use super::{Args, CLIMBS, products};
 use crate::progress;
+use airlight::Precision;
 use airlight_tools::adversary::{Worst, climb};
 use airlight_tools::contender::Contender;
 use anyhow::Result;
@@ -21,6 +22,8 @@ pub(super) struct Worsts(Vec<Row>);
 #[derive(Debug, Serialize)]
 struct Row {
     strategy: &'static str,
+    /// That of quadrature in f64.
+    precision: &'static str,
     largest_g: f32,
     climbs: usize,
     #[serde(flatten)]
@@ -42,7 +45,8 @@ pub(super) fn search(args: &Args) -> Result<Worsts> {
                 worst
             });
             let worst = worst.max_by(|a, b| a.variance.total_cmp(&b.variance));
-            rows.push(Row { strategy: Contender::name(contender), largest_g, climbs, worst });
+            let (strategy, precision) = (Contender::name(contender), Precision::Exact.name());
+            rows.push(Row { strategy, precision, largest_g, climbs, worst });
         }
     }
     progress.finish_and_clear();
@@ -52,7 +56,7 @@ pub(super) fn search(args: &Args) -> Result<Worsts> {
 impl fmt::Display for Worsts {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for row in &self.0 {
-            write!(f, "|g| <= {:<4}  {:12}  ", row.largest_g, row.strategy)?;
+            write!(f, "|g| <= {:<4}  {:12}  {}  ", row.largest_g, row.strategy, row.precision)?;
             match &row.worst {
                 Some(Worst { variance, place }) => writeln!(f, "{variance:.3e}  at {place}")?,
                 None => writeln!(f, "nothing is lit")?,

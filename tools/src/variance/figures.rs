@@ -1,6 +1,7 @@
 //! What `airlight variance` found, as JSON and as a table.
 
 use crate::table;
+use airlight::Precision;
 use airlight_tools::contender::Contender;
 use serde::Serialize;
 use std::fmt;
@@ -15,6 +16,8 @@ pub(crate) struct Figures(pub(crate) Vec<Row>);
 #[derive(Debug, Serialize)]
 pub(crate) struct Row {
     pub(crate) strategy: &'static str,
+    /// That of quadrature in f64.
+    precision: &'static str,
     pub(crate) set: String,
     pub(crate) scenes: usize,
     pub(crate) median: Option<f64>,
@@ -40,6 +43,7 @@ impl Row {
         let quantile = |p: f64| variances.get(((p * valid as f64).ceil() as usize).max(1) - 1).copied();
         Self {
             strategy: contender.name(),
+            precision: Precision::Exact.name(),
             set: set.to_owned(),
             scenes,
             median: quantile(0.5),
@@ -58,12 +62,15 @@ impl fmt::Display for Figures {
         for (i, rows) in self.0.chunk_by(|a, b| a.set == b.set).enumerate() {
             let gap = if i == 0 { "" } else { "\n" };
             writeln!(f, "{gap}{}, {} scenes: relative variance of one sample", rows[0].set, rows[0].scenes)?;
-            let mut table = table::new(["strategy", "median", "mean", "p90", "p99", "max", "above 1", "invalid"]);
+            let mut table =
+                table::new(["strategy", "precision", "median", "mean", "p90", "p99", "max", "above 1", "invalid"]);
             for row in rows {
                 let told = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.2e}"));
                 let [median, mean, p90, p99, max] = [row.median, row.mean, row.p90, row.p99, row.max].map(told);
                 let share = row.share_above_1.map_or("-".to_owned(), |share| format!("{:.1} %", 100.0 * share));
-                table.add_row([row.strategy.to_owned(), median, mean, p90, p99, max, share, row.invalid.to_string()]);
+                let names = [row.strategy, row.precision].map(str::to_owned);
+                let figures = [median, mean, p90, p99, max, share, row.invalid.to_string()];
+                table.add_row(names.into_iter().chain(figures));
             }
             writeln!(f, "{}", table::text(&table))?;
         }
@@ -71,6 +78,7 @@ impl fmt::Display for Figures {
             f,
             "\nV: variance of one sample's weight over the square of its mean; median to max: of V over the scenes"
         )?;
+        writeln!(f, "precision: by quadrature in f64; samplers of any precision sample these densities")?;
         writeln!(f, "above 1: share of the scenes with V > 1")?;
         writeln!(
             f,

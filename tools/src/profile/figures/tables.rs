@@ -24,13 +24,16 @@ impl fmt::Display for Figures {
         let staged: Vec<&Row> = rows.iter().filter(times).collect();
         let largest = staged.iter().filter(|row| is_stage(&row.subject)).filter_map(|row| row.subject.rays).max();
         if let Some(rays) = largest {
-            let title = format!("stages of a sample, 1 thread, batches of {rays} [ns]");
-            section(f, &title, &stages(&staged, rays), OF_STAGES)?;
+            for backend in distinct(staged.iter().map(|row| row.subject.backend)) {
+                let title = format!("stages of a sample, 1 thread, {backend}, batches of {rays} [ns]");
+                section(f, &title, &stages(&staged, backend, rays), OF_STAGES)?;
+            }
         }
         let fastest = rows.iter().find(|row| row.ns_per_call.is_some()).and_then(|row| row.subject.backend);
         let title = format!("time of a call by its rays, 1 thread, {} [ns]", fastest.unwrap_or("-"));
         section(f, &title, &calls(&staged), OF_CALLS)?;
         section(f, "few rays, many variates: time of a sample [ns]", &many_variates(&staged), OF_MANY_VARIATES)?;
+        section(f, "errors of peers", &errors(rows), OF_ERRORS)?;
         self.comparisons(f)?;
         writeln!(f, "all figures are medians over the rounds")
     }
@@ -45,9 +48,11 @@ const OF_STAGES: &str =
 total: t and pdf; weight: weight and r as well; 8 per ray: where 8 samples share a set-up";
 const OF_CALLS: &str = "a number: sample, of t and pdf, with so many rays; one: sample_one, of weight and r as well";
 const OF_MANY_VARIATES: &str = "rays x variates of each: t and pdf of one call";
+const OF_ERRORS: &str = "what 0.1 % of rays exceed in |CDF(t) - u|; ours is in airlight accuracy";
 const OF_PORTABLE: &str = "time with the portable backend over that with this one";
 const OF_THREADS: &str = "time with one thread over that with several, by samples of a batch";
-const OF_COSTS: &str = "time over that of equi-angular with one sample per ray, by samples of a batch";
+const OF_COSTS: &str =
+    "time over that of equi-angular of the same precision with one sample per ray, by samples of a batch";
 const OF_OTHERS: &str = "time of what stands after the colon over that of what stands before, by samples of a batch";
 
 fn counted(threads: usize) -> String {
@@ -75,8 +80,8 @@ impl Figures {
         section(
             f,
             "times as fast as with one thread",
-            &ratios(&of_threads.collect::<Vec<_>>(), |subject| {
-                format!("{}, {} threads", subject.strategy.unwrap_or("-"), subject.threads)
+            &ratios(&of_threads.collect::<Vec<_>>(), |row| {
+                format!("{}, {} threads", row.subject.strategy.unwrap_or("-"), row.subject.threads)
             }),
             OF_THREADS,
         )?;
@@ -84,28 +89,32 @@ impl Figures {
         section(
             f,
             "times the cost of equi-angular, 1 thread",
-            &ratios(&costs.collect::<Vec<_>>(), |subject| {
-                let strategy = subject.strategy.unwrap_or("-");
-                match subject.samples_per_ray {
+            &ratios(&costs.collect::<Vec<_>>(), |row| {
+                let strategy = row.subject.strategy.unwrap_or("-");
+                match row.subject.samples_per_ray {
                     1 => strategy.to_owned(),
                     several => format!("{strategy}, {several} per ray"),
                 }
             }),
             OF_COSTS,
         )?;
-        let peers = against("peer").chain(against("taylor-transmittance")).filter(of_fastest).filter(alone);
-        section(
-            f,
-            "times as fast as others, 1 thread",
-            &ratios(&peers.collect::<Vec<_>>(), |subject| {
-                let strategy = subject.strategy.unwrap_or("-");
-                match subject.peer {
-                    Some(peer) => format!("{strategy} : peer {peer}"),
-                    None => format!("{strategy} : taylor-transmittance"),
-                }
-            }),
-            OF_OTHERS,
-        )
+        let with_peers = against("peer").map(|row| row.subject.backend);
+        for backend in distinct([fastest].into_iter().chain(with_peers)) {
+            let others = ["peer", "taylor-transmittance", "exact"].into_iter().flat_map(against).filter(alone);
+            let of_backend = others.filter(|row| row.subject.backend == Some(backend));
+            let title = format!("times as fast as others, 1 thread, {backend}");
+            section(f, &title, &ratios(&of_backend.collect::<Vec<_>>(), against_other), OF_OTHERS)?;
+        }
+        Ok(())
+    }
+}
+
+/// What is compared with a peer or another kernel of ours, and that.
+fn against_other(row: &Row) -> String {
+    let strategy = row.subject.strategy.unwrap_or("-");
+    match (row.subject.peer, row.against) {
+        (Some(peer), _) => format!("{strategy} : peer {peer}"),
+        (None, other) => format!("{strategy} : {}", other.unwrap_or("-")),
     }
 }
 
@@ -181,7 +190,7 @@ fn times(rows: &[&Row]) -> Table {
     };
     let whole = || rows.iter().filter(whole);
     let sizes = distinct(whole().map(|row| row.subject.rays));
-    let mut table = by_size(&["strategy", "backend"], &sizes, &["+- %", "Msamples/s", "limit", "%"]);
+    let mut table = by_size(&["strategy", "precision", "backend"], &sizes, &["+- %", "Msamples/s", "limit", "%"]);
     let kernel = |row: &Row| Subject { rays: None, ..row.subject };
     for wanted in distinct(whole().map(|row| Some(kernel(row)))) {
         let of_kernel: Vec<&&Row> = whole().filter(|row| kernel(row) == wanted).collect();
@@ -190,7 +199,7 @@ fn times(rows: &[&Row]) -> Table {
         };
         let best = of_kernel.iter().max_by(|a, b| a.msamples_per_s.partial_cmp(&b.msamples_per_s).expect("no NaN"));
         let deviation = of_kernel.iter().filter_map(|row| Some(100.0 * row.deviation(row.ns_per_sample?)));
-        let names = [wanted.strategy.or(wanted.peer), wanted.backend.or(Some("peer"))];
+        let names = [wanted.strategy.or(wanted.peer), wanted.precision.or(Some("peer")), wanted.backend];
         let last = [
             format!("{:.0}", deviation.fold(0.0, f64::max)),
             cell(best.and_then(|row| row.msamples_per_s)),
@@ -203,13 +212,14 @@ fn times(rows: &[&Row]) -> Table {
     table
 }
 
-fn stages(rows: &[&Row], rays: usize) -> Table {
+fn stages(rows: &[&Row], backend: &str, rays: usize) -> Table {
     let stages = ["geometry", "set-up", "inversion", "output", TOTAL, "with-weight"];
-    let heads = ["strategy", "backend", "geometry", "set-up", "inversion", "output", "total", "weight", "8 per ray"];
+    let heads = ["strategy", "precision", "geometry", "set-up", "inversion", "output", "total", "weight", "8 per ray"];
     let mut table = table::new(heads);
-    let kernel = |row: &Row| Some((row.subject.strategy?, row.subject.backend?));
-    for wanted in distinct(rows.iter().map(|row| kernel(row))) {
-        let of_kernel = || rows.iter().filter(|row| row.subject.threads == 1 && kernel(row) == Some(wanted));
+    let kernel = |row: &Row| Some((row.subject.strategy?, row.subject.precision?));
+    let of_backend = || rows.iter().filter(|row| row.subject.threads == 1 && row.subject.backend == Some(backend));
+    for wanted in distinct(of_backend().map(|row| kernel(row))) {
+        let of_kernel = || of_backend().filter(|row| kernel(row) == Some(wanted));
         let time = |stage| {
             let alone = |row: &&&Row| row.subject.samples_per_ray == 1 && row.subject.rays == Some(rays);
             of_kernel().filter(alone).find(|row| row.subject.stage == Some(stage)).and_then(|row| row.ns_per_sample)
@@ -232,17 +242,19 @@ fn stages(rows: &[&Row], rays: usize) -> Table {
 fn calls(rows: &[&Row]) -> Table {
     let calls = || rows.iter().filter(|row| row.ns_per_call.is_some());
     let sizes = distinct(calls().filter(|row| row.subject.stage == Some(CALL)).map(|row| row.subject.rays));
-    let mut table = by_size(&["strategy", "one"], &sizes, &[]);
-    for strategy in distinct(calls().map(|row| row.subject.strategy)) {
+    let mut table = by_size(&["strategy", "precision", "one"], &sizes, &[]);
+    let sampler = |row: &Row| Some((row.subject.strategy?, row.subject.precision?));
+    for wanted in distinct(calls().map(|row| sampler(row))) {
         let time = |stage, rays| {
             let of = |row: &&&Row| {
-                let Subject { strategy: of, stage: part, rays: with, .. } = row.subject;
-                (of, part, with) == (Some(strategy), Some(stage), Some(rays))
+                let Subject { stage: part, rays: with, .. } = row.subject;
+                (sampler(row), part, with) == (Some(wanted), Some(stage), Some(rays))
             };
             cell(calls().find(of).and_then(|row| row.ns_per_call))
         };
         let times = sizes.iter().map(|&rays| time(CALL, rays));
-        table.add_row([strategy.to_owned(), time(ONE, 1)].into_iter().chain(times));
+        let names = [wanted.0, wanted.1].map(str::to_owned);
+        table.add_row(names.into_iter().chain([time(ONE, 1)]).chain(times));
     }
     table
 }
@@ -251,45 +263,62 @@ fn calls(rows: &[&Row]) -> Table {
 fn many_variates(rows: &[&Row]) -> Table {
     let many = || rows.iter().filter(|row| row.subject.samples_per_ray > SHARED);
     let all_threads = distinct(many().map(|row| Some(row.subject.threads)));
-    let heads = ["strategy", "rays x variates"].map(str::to_owned).into_iter();
+    let heads = ["strategy", "precision", "rays x variates"].map(str::to_owned).into_iter();
     let mut table = table::new(heads.chain(all_threads.iter().map(|&threads| counted(threads))));
-    let shape = |row: &Row| Some((row.subject.strategy?, row.subject.rays?, row.subject.samples_per_ray));
-    for (strategy, rays, per_ray) in distinct(many().map(|row| shape(row))) {
+    let shape = |row: &Row| {
+        let Subject { strategy, precision, rays, samples_per_ray, .. } = row.subject;
+        Some((strategy?, precision?, rays?, samples_per_ray))
+    };
+    for wanted in distinct(many().map(|row| shape(row))) {
         let time = |&threads: &usize| {
-            let of = |row: &&&Row| shape(row) == Some((strategy, rays, per_ray)) && row.subject.threads == threads;
+            let of = |row: &&&Row| shape(row) == Some(wanted) && row.subject.threads == threads;
             cell(many().find(of).and_then(|row| row.ns_per_sample))
         };
-        let names = [strategy.to_owned(), format!("{rays} x {per_ray}")];
+        let (strategy, precision, rays, per_ray) = wanted;
+        let names = [strategy.to_owned(), precision.to_owned(), format!("{rays} x {per_ray}")];
         table.add_row(names.into_iter().chain(all_threads.iter().map(time)));
     }
     table
 }
 
-/// Ratios of a strategy on each backend.
-fn by_backend(rows: &[&Row]) -> Table {
-    let backends = distinct(rows.iter().map(|row| row.subject.backend));
-    let mut table = table::new(["strategy"].into_iter().chain(backends.iter().copied()));
-    for strategy in distinct(rows.iter().map(|row| row.subject.strategy)) {
-        let ratio = |&backend: &&str| {
-            let of = |row: &&&Row| row.subject.strategy == Some(strategy) && row.subject.backend == Some(backend);
-            cell(rows.iter().find(of).and_then(|row| row.ratio))
-        };
-        table.add_row([strategy.to_owned()].into_iter().chain(backends.iter().map(ratio)));
+/// What 0.1 % of rays exceed, of the peers.
+fn errors(rows: &[Row]) -> Table {
+    let mut table = table::new(["peer", "backend", "CDF p99.9"]);
+    let told = |row: &Row| Some((row.subject.peer?, row.subject.backend?, row.cdf_p999?));
+    for (peer, backend, error) in distinct(rows.iter().map(told)) {
+        table.add_row([peer.to_owned(), backend.to_owned(), format!("{error:.1e}")]);
     }
     table
 }
 
-/// Ratios by the number of samples, a row for each name.
-fn ratios(rows: &[&Row], name: impl Fn(&Subject) -> String) -> Table {
+/// Ratios of a sampler on each backend.
+fn by_backend(rows: &[&Row]) -> Table {
+    let backends = distinct(rows.iter().map(|row| row.subject.backend));
+    let mut table = table::new(["strategy", "precision"].into_iter().chain(backends.iter().copied()));
+    let sampler = |row: &Row| Some((row.subject.strategy?, row.subject.precision?));
+    for wanted in distinct(rows.iter().map(|row| sampler(row))) {
+        let ratio = |&backend: &&str| {
+            let of = |row: &&&Row| sampler(row) == Some(wanted) && row.subject.backend == Some(backend);
+            cell(rows.iter().find(of).and_then(|row| row.ratio))
+        };
+        let names = [wanted.0, wanted.1].map(str::to_owned);
+        table.add_row(names.into_iter().chain(backends.iter().map(ratio)));
+    }
+    table
+}
+
+/// Ratios by the number of samples, a row for each name and precision.
+fn ratios(rows: &[&Row], name: impl Fn(&Row) -> String) -> Table {
     let samples = |row: &Row| Some(row.subject.rays? * row.subject.samples_per_ray);
     let sizes = distinct(rows.iter().map(|row| samples(row)));
-    let mut table = by_size(&["strategy"], &sizes, &["+- %"]);
-    for wanted in distinct(rows.iter().map(|row| Some(name(&row.subject)))) {
-        let named: Vec<&&Row> = rows.iter().filter(|row| name(&row.subject) == wanted).collect();
+    let mut table = by_size(&["strategy", "precision"], &sizes, &["+- %"]);
+    let names = |row: &Row| [name(row), row.subject.precision.unwrap_or("-").to_owned()];
+    for wanted in distinct(rows.iter().map(|row| Some(names(row)))) {
+        let named: Vec<&&Row> = rows.iter().filter(|row| names(row) == wanted).collect();
         let ratio = |&size: &usize| cell(named.iter().find(|row| samples(row) == Some(size)).and_then(|row| row.ratio));
         let deviation = named.iter().filter_map(|row| Some(100.0 * row.deviation(row.ratio?))).fold(0.0, f64::max);
         let cells = sizes.iter().map(ratio).chain([format!("{deviation:.0}")]);
-        table.add_row([wanted.clone()].into_iter().chain(cells));
+        table.add_row(wanted.clone().into_iter().chain(cells));
     }
     table
 }

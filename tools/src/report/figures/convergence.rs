@@ -48,8 +48,8 @@ pub(super) fn figure(findings: &Findings<'_>) -> Result<Figure> {
         title: "Error of the radiance against time",
         caption: format!(
             "{told}Root-mean-square error of the mean radiance of the wavefront {}, {} threads; lines of slope -1/2 from \
-             the standard errors and times of {} samples each.",
-            sample.wavefront, sample.threads, sample.rays
+             the standard errors and times of {} samples each, in {} precision.",
+            sample.wavefront, sample.threads, sample.rays, findings.precision
         ),
         drawings: vec![drawing],
     })

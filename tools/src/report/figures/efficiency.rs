@@ -15,12 +15,12 @@ type Point = (Strategy, (f64, f64));
 pub(super) fn figure(findings: &Findings<'_>) -> Result<Figure> {
     let points = |variance: fn(&Finding) -> f64| -> Vec<Point> {
         let point = |finding: &Finding| (finding.strategy, (finding.ns_per_sample, variance(finding)));
-        findings.strategies.iter().map(point).filter(|(_, (x, y))| *x > 0.0 && *y > 0.0 && y.is_finite()).collect()
+        findings.of_one().map(point).filter(|(_, (x, y))| *x > 0.0 && *y > 0.0 && y.is_finite()).collect()
     };
     let canonical = points(|finding| finding.variance_canonical);
     let broad = points(|finding| finding.variance_broad);
     let scenes = findings.measured.canonical.0.first().map_or(0, |row| row.scenes);
-    let best = findings.strategies.iter().max_by(|a, b| a.efficiency.total_cmp(&b.efficiency));
+    let best = findings.of_one().max_by(|a, b| a.efficiency.total_cmp(&b.efficiency));
     let best = best.map_or(String::new(), |best| {
         let than = times(best.efficiency);
         format!(
@@ -29,13 +29,15 @@ pub(super) fn figure(findings: &Findings<'_>) -> Result<Figure> {
         )
     });
     let whiskers: Vec<(Point, f64)> =
-        broad.iter().copied().zip(findings.strategies.iter().map(|finding| finding.variance_broad_p90)).collect();
+        broad.iter().copied().zip(findings.of_one().map(|finding| finding.variance_broad_p90)).collect();
     Ok(Figure {
         title: "What a sample costs and what it is worth",
         caption: format!(
             "{best}along a dashed line 1/(V time) is the same, in multiples of that of equi-angular; the grey line joins \
              those that no other beats in both. In the first drawing V is the mean over {scenes} canonical scenes of each of four \
-             kinds; in the second the median over the broad set, with a line up to what a tenth of it exceeds."
+             kinds; in the second the median over the broad set, with a line up to what a tenth of it exceeds. Times are \
+             those in {} precision.",
+            findings.precision
         ),
         drawings: vec![
             drawing(

@@ -21,7 +21,7 @@ pub(super) fn figure(findings: &Findings<'_>) -> Result<Figure> {
     let mut drawings = threads.iter().map(|&threads| by_batch(findings, threads)).collect::<Result<Vec<_>>>()?;
     drawings.push(by_backend(findings)?);
     let nearest = findings
-        .times(1)
+        .times(findings.precision, 1)
         .filter(|row| row.subject.backend == Some(findings.backend.name()) && row.subject.rays == Some(findings.batch))
         .max_by(|a, b| a.share.unwrap_or(0.0).total_cmp(&b.share.unwrap_or(0.0)));
     let nearest = nearest.map_or(String::new(), |row| {
@@ -40,9 +40,10 @@ pub(super) fn figure(findings: &Findings<'_>) -> Result<Figure> {
         caption: format!(
             "{nearest}The dashed line is memory: reading and writing the columns of the samples and nothing else. The \
              last drawing is of one thread and batches of {} rays; at its right is what arithmetic alone would \
-             allow the fastest backend, {}.",
+             allow the fastest backend, {}. All are in {} precision.",
             findings.batch,
-            findings.backend.name()
+            findings.backend.name(),
+            findings.precision
         ),
         drawings,
     })
@@ -52,7 +53,9 @@ pub(super) fn figure(findings: &Findings<'_>) -> Result<Figure> {
 fn by_batch(findings: &Findings<'_>, threads: usize) -> Result<Drawing> {
     let point = |row: &Row| Some((row.subject.rays? as f64, row.msamples_per_s?));
     let of = |strategy: Strategy| -> Vec<(f64, f64)> {
-        let rows = findings.times(threads).filter(|row| row.subject.backend == Some(findings.backend.name()));
+        let rows = findings
+            .times(findings.precision, threads)
+            .filter(|row| row.subject.backend == Some(findings.backend.name()));
         ascending(rows.filter(|row| row.subject.strategy == Some(strategy.name())).filter_map(point))
     };
     let stream = |row: &&Row| row.subject.limit == Some("stream") && row.subject.threads == threads;
@@ -81,7 +84,7 @@ fn by_batch(findings: &Findings<'_>, threads: usize) -> Result<Drawing> {
 /// Every backend, one thread.
 fn by_backend(findings: &Findings<'_>) -> Result<Drawing> {
     let mut backends: Vec<Backend> = Backend::available().collect();
-    let time = |strategy, backend| findings.time(strategy, backend, 1, findings.batch);
+    let time = |strategy, backend| findings.time((strategy, findings.precision), backend, findings.batch);
     backends.retain(|&backend| time(Strategy::EquiAngular, backend).is_some());
     let speed =
         |&backend: &Backend| time(Strategy::EquiAngular, backend).and_then(|row| row.msamples_per_s).unwrap_or(0.0);
