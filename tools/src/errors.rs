@@ -449,3 +449,37 @@ pub fn quantile(ascending: &[f64], p: f64) -> f64 {
     let last = ascending.len().saturating_sub(1);
     ascending.get((p * last as f64).ceil() as usize).copied().unwrap_or(f64::NAN)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use airlight::{Emitter, Medium, Ray};
+    use glam::Vec3;
+
+    /// The light of a ray along x up to `t_max`, of an emitter beside its middle.
+    fn light(t_max: f32, normal: Vec3) -> f64 {
+        let ray = Ray::new(Vec3::ZERO, Vec3::X, 0.0, t_max).unwrap();
+        let emitter = Emitter::point_normal(Vec3::new(0.5, 1.0, 0.0), normal).unwrap();
+        relative_light(&Scene::new(&ray, &emitter, &Medium::new(0.1, 0.1, 0.0).unwrap()))
+    }
+
+    #[test]
+    fn the_light_of_a_ray_is_told_relative_to_an_emitter_that_faces_it_squarely() {
+        assert_eq!(light(1.0, Vec3::NEG_Y), 1.0);
+        // N is 1e-6 h/r, and the bound at most twice its mean.
+        let grazing = light(1.0, Vec3::new(0.0, -1e-6, 1.0));
+        assert!((0.89e-6..=2e-6).contains(&grazing), "{grazing:e}");
+        // Lit in the last tenth alone, 0.083 of an angle of 0.93, with N up to 8.9e-4.
+        let sliver = light(1.0, Vec3::new(1e-2, 4e-3, 1.0));
+        assert!((7e-5..9e-5).contains(&sliver), "{sliver:e}");
+    }
+
+    #[test]
+    fn of_a_dark_ray_it_is_what_it_falls_short_of_light() {
+        let below = light(1.0, Vec3::new(0.0, 1e-6, 1.0));
+        assert!((0.89e-6..0.9e-6).contains(&below), "{below:e}");
+        assert!(light(1.0, Vec3::Y) > 0.8);
+        // Nothing of a ray without length can be lit.
+        assert_eq!(light(0.0, Vec3::NEG_Y), 1.0);
+    }
+}

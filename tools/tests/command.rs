@@ -1,6 +1,6 @@
 //! The built command, as it is met from outside.
 
-use airlight::{Emitters, Media, Medium, Rays, Sampler, Samples, Strategy};
+use airlight::{Emitters, Media, Medium, Precision, Rays, Sampler, Samples, Strategy};
 use serde_json::Value;
 use std::fs;
 use std::io::{Cursor, Read, Write};
@@ -10,7 +10,7 @@ use tempfile::TempDir;
 
 const COLUMNS: [&str; 15] =
     ["ox", "oy", "oz", "dx", "dy", "dz", "t_min", "t_max", "ex", "ey", "ez", "nx", "ny", "nz", "u"];
-const KEYS: [&str; 16] = [
+const KEYS: [&str; 17] = [
     "bisected",
     "cdf_max",
     "cdf_p999",
@@ -22,6 +22,7 @@ const KEYS: [&str; 16] = [
     "empty",
     "invalid",
     "msamples_per_s",
+    "precision",
     "radiance",
     "radiance_stderr",
     "rays",
@@ -168,12 +169,13 @@ fn a_small_run_ends_with_a_table_that_agrees_with_quadrature() {
             .filter(|row| row.first() == Some(&strategy.name()))
             .collect();
         let [speed, radiance] = &rows[..] else { panic!("{strategy} has not two rows in\n{table}") };
-        assert!(speed[1].parse::<f64>().unwrap() > 0.0, "{table}");
-        assert_eq!(speed[2..5].iter().map(|count| count.parse::<u64>().unwrap()).sum::<u64>(), 131_072, "{table}");
-        assert_eq!(speed[4], "0", "{table}");
-        let z: f64 = radiance[6].parse().unwrap();
+        assert_eq!([speed[1], radiance[1]], ["exact"; 2], "{table}");
+        assert!(speed[2].parse::<f64>().unwrap() > 0.0, "{table}");
+        assert_eq!(speed[3..6].iter().map(|count| count.parse::<u64>().unwrap()).sum::<u64>(), 131_072, "{table}");
+        assert_eq!(speed[5], "0", "{table}");
+        let z: f64 = radiance[7].parse().unwrap();
         assert!(z.abs() < 5.0, "{table}");
-        assert!(radiance[8].parse::<f64>().unwrap() < 1e-3, "{table}");
+        assert!(radiance[9].parse::<f64>().unwrap() < 1e-3, "{table}");
     }
 }
 
@@ -191,10 +193,25 @@ fn json_on_standard_output_stands_alone() {
         let mut keys: Vec<_> = row.as_object().unwrap().keys().collect();
         keys.sort();
         assert_eq!(keys, KEYS);
+        assert_eq!(row["precision"], "exact");
         assert_eq!(row["check_rays"], 64);
         assert!(row["radiance"].as_f64().unwrap() > 0.0);
         assert!(row["radiance_stderr"].as_f64().unwrap() > 0.0);
     }
+}
+
+#[test]
+fn strategies_without_fast_precision_are_left_out_or_refused() {
+    let arguments = ["sample", "--rays", "8", "--check", "0", "--precision", "fast"];
+    let figures: Value = serde_json::from_str(&succeed(&[&arguments[..], &["--json", "-"]].concat())).unwrap();
+    let sampled = |row: &Value| [&row["strategy"], &row["precision"]].map(|name| name.as_str().unwrap().to_owned());
+    let fast = Strategy::ALL.iter().filter(|strategy| strategy.has_precision(Precision::Fast));
+    assert_eq!(
+        figures["results"].as_array().unwrap().iter().map(sampled).collect::<Vec<_>>(),
+        fast.map(|strategy| [strategy.name(), "fast"].map(str::to_owned)).collect::<Vec<_>>()
+    );
+    let told = fail(&[&arguments[..], &["--strategy", "taylor-phase"]].concat());
+    assert_eq!(told, "error: the strategy taylor-phase has no fast precision\n");
 }
 
 #[test]
@@ -493,7 +510,7 @@ fn where_there_is_no_light_there_is_no_z_and_no_minus_zero() {
         for &strategy in Strategy::ALL {
             let radiance = table.lines().filter(|line| line.starts_with(&format!("{strategy} "))).nth(1).unwrap();
             let cells: Vec<&str> = radiance.split_whitespace().collect();
-            assert_eq!(cells[1..7], ["0.00000e0", "0.0e0", "0.00000e0", "0.0e0", "0.00000e0", "-"], "{table}");
+            assert_eq!(cells[2..8], ["0.00000e0", "0.0e0", "0.00000e0", "0.0e0", "0.00000e0", "-"], "{table}");
         }
         let json = succeed(&[&arguments[..], &["--json", "-"]].concat());
         assert!(!json.contains("-0.0"), "{json}");
@@ -556,6 +573,7 @@ fn a_refused_argument_is_named() {
         (&["--medium", "0.1,nan,0"], "mu_s is NaN, expected a finite value >= 0"),
         (&["--medium", "0.1,0.3,1.5"], "g is 1.5, expected -1 <= g <= 1"),
         (&["--strategy", "best"], "no strategy is called 'best'; there are transmittance"),
+        (&["--precision", "best"], "no precision is called 'best'; there are exact, fast"),
         (&[], "--output takes exactly one --strategy"),
         (&["--strategy", "equi-angular", "--strategy", "point-normal"], "--output takes exactly one --strategy"),
     ] {

@@ -1,11 +1,21 @@
 //! `airlight profile`, as it is met from outside. No time is a promise: what is checked is what is measured at all.
 
-use airlight::{Backend, Strategy};
+mod peer_library;
+
+use airlight::{Backend, Precision, Strategy};
 use serde_json::Value;
 use std::process::{Command, Output};
+use tempfile::TempDir;
 
 fn profile(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_airlight")).arg("profile").args(arguments).output().unwrap()
+}
+
+/// Every strategy in every precision that it has.
+fn samplers() -> impl Iterator<Item = (Strategy, Precision)> {
+    let of = |strategy: Strategy| Precision::ALL.iter().map(move |&precision| (strategy, precision));
+    let all = Strategy::ALL.iter().flat_map(move |&strategy| of(strategy));
+    all.filter(|(strategy, precision)| strategy.has_precision(*precision))
 }
 
 /// The rows of a run that must succeed and say nothing on standard error.
@@ -21,14 +31,20 @@ fn is_positive(value: &Value) -> bool {
 }
 
 #[test]
-fn every_strategy_is_measured_on_every_backend_and_number_of_threads() {
+fn every_strategy_is_measured_in_every_precision_on_every_backend_and_number_of_threads() {
     let rows = rows(&["--rays", "64", "--rays", "71", "--threads", "1", "--threads", "2", "--rounds", "1"]);
-    for strategy in Strategy::ALL {
+    for row in &rows {
+        let names = [&row["strategy"], &row["precision"]].map(|name| name.as_str().unwrap_or(""));
+        let has_both = samplers().any(|(strategy, precision)| names == [strategy.name(), precision.name()]);
+        assert!(has_both || names == ["", ""], "{row}");
+    }
+    for (strategy, precision) in samplers() {
         for backend in Backend::available() {
             for threads in [1, 2] {
                 for rays in [64, 71] {
                     let whole = |row: &&Value| {
                         row["strategy"] == strategy.name()
+                            && row["precision"] == precision.name()
                             && row["backend"] == backend.name()
                             && row["threads"] == threads
                             && row["rays"] == rays
@@ -37,7 +53,7 @@ fn every_strategy_is_measured_on_every_backend_and_number_of_threads() {
                             && row["against"].is_null()
                     };
                     let [row] = rows.iter().filter(whole).collect::<Vec<_>>()[..] else {
-                        panic!("{strategy}, {}, {threads} threads, {rays} rays", backend.name());
+                        panic!("{strategy}, {precision}, {}, {threads} threads, {rays} rays", backend.name());
                     };
                     let keys = ["ns_per_sample", "msamples_per_s", "min", "max", "share"];
                     assert!(keys.iter().all(|&key| is_positive(&row[key])), "{row}");
@@ -51,10 +67,13 @@ fn every_strategy_is_measured_on_every_backend_and_number_of_threads() {
 #[test]
 fn stages_add_up_to_the_whole() {
     let rows = rows(&["--rays", "64", "--threads", "1", "--rounds", "1", "--strategy", "product-3"]);
-    for backend in Backend::available() {
+    let pairs = Backend::available().flat_map(|backend| Precision::ALL.iter().map(move |of| (backend, of.name())));
+    for (backend, precision) in pairs {
         let time = |stage: &str| {
-            let of_stage =
-                |row: &&Value| row["stage"] == stage && row["backend"] == backend.name() && row["samples_per_ray"] == 1;
+            let of_stage = |row: &&Value| {
+                (row["stage"] == stage && row["backend"] == backend.name())
+                    && (row["samples_per_ray"] == 1 && row["precision"] == precision)
+            };
             rows.iter().find(of_stage).unwrap()["ns_per_sample"].as_f64().unwrap()
         };
         let sum: f64 = ["geometry", "set-up", "inversion", "output"].map(time).iter().sum();
@@ -84,6 +103,11 @@ fn limits_and_ratios_are_rows_of_the_same_list() {
     assert_eq!(ratio("product-9", "portable", 1), 1.0);
     assert_eq!(ratio("product-9", "one thread", 1), 1.0);
     assert_eq!(ratio("equi-angular", "equi-angular", 1), 1.0);
+    // Fast against exact.
+    let fast: Vec<&Value> = rows.iter().filter(|row| row["against"] == "exact").collect();
+    let both = samplers().filter(|(_, precision)| *precision == Precision::Fast).count();
+    assert_eq!(fast.len(), both);
+    assert!(fast.iter().all(|row| row["precision"] == "fast" && is_positive(&row["ratio"])), "{fast:?}");
     // The set-up is shared by 8 samples.
     assert!(ratio("product-9", "equi-angular", 8) > 0.0);
 }
@@ -105,11 +129,14 @@ fn calls_of_few_rays_are_measured_on_one_thread_with_the_fastest_backend() {
         "product-3",
     ]);
     let calls: Vec<&Value> = rows.iter().filter(|row| !row["ns_per_call"].is_null()).collect();
-    let measured =
-        |row: &&Value| (row["strategy"].to_string(), row["stage"].to_string(), row["rays"].as_u64().unwrap());
-    let expected = strategies.iter().flat_map(|strategy| {
-        let of = |stage: &str, rays| (format!("\"{strategy}\""), format!("\"{stage}\""), rays);
-        [of("one", 1)].into_iter().chain([1, 8, 33, 64, 1000].map(|rays| of("call", rays)))
+    let measured = |row: &&Value| {
+        let names = ["strategy", "precision", "stage"].map(|key| row[key].as_str().unwrap().to_owned());
+        (names, row["rays"].as_u64().unwrap())
+    };
+    let pairs = strategies.iter().flat_map(|strategy| Precision::ALL.iter().map(move |of| (strategy, of.name())));
+    let expected = pairs.flat_map(|(strategy, precision)| {
+        let of = |stage: &str, rays| ([*strategy, precision, stage].map(str::to_owned), rays);
+        [of("one", 1)].into_iter().chain([1, 8, 33, 64, 1000].map(|rays| of("call", rays))).collect::<Vec<_>>()
     });
     assert_eq!(calls.iter().map(measured).collect::<Vec<_>>(), expected.collect::<Vec<_>>());
     let fastest = Backend::available().next().unwrap().name();
@@ -133,15 +160,64 @@ fn many_variates_of_few_rays_are_measured_unless_it_is_to_be_quick() {
         rows
     };
     let measured = many(&["--strategy", "product-9"]);
-    let shape = |row: &Value| ["threads", "rays", "samples_per_ray"].map(|key| row[key].as_u64().unwrap());
+    let shape = |row: &&Value| ["threads", "rays", "samples_per_ray"].map(|key| row[key].as_u64().unwrap());
     let shapes = [[1, 1, 4_194_304], [1, 131_072, 32], [2, 1, 4_194_304], [2, 131_072, 32]];
-    assert_eq!(measured.iter().map(shape).collect::<Vec<_>>(), shapes);
+    for precision in Precision::ALL {
+        let of_precision = measured.iter().filter(|row| row["precision"] == precision.name());
+        // A ratio is one of times.
+        let times = of_precision.filter(|row| row["against"].is_null());
+        assert_eq!(times.map(|row| shape(&row)).collect::<Vec<_>>(), shapes, "{precision}");
+    }
     for row in &measured {
         assert_eq!((&row["strategy"], &row["stage"]), (&"product-9".into(), &"total".into()), "{row}");
         assert!(is_positive(&row["ns_per_sample"]), "{row}");
     }
     assert!(many(&["--strategy", "product-9", "--quick"]).is_empty());
     assert!(many(&["--strategy", "product-5"]).is_empty());
+}
+
+#[test]
+fn peers_are_compared_with_the_backend_of_their_width() {
+    let folder = TempDir::new().unwrap();
+    let library = peer_library::build(folder.path());
+    let backends: Vec<&str> = Backend::available().map(Backend::name).take(2).collect();
+    let peers: Vec<String> = backends.iter().map(|backend| format!("{backend}={library}")).collect();
+    let mut options = vec!["--rays", "64", "--threads", "1", "--rounds", "1", "--strategy", "equi-angular"];
+    backends.iter().zip(&peers).for_each(|(backend, peers)| options.extend(["--backend", backend, "--peers", peers]));
+    let rows = rows(&options);
+    for backend in backends {
+        let is_total = |row: &&Value| row["stage"] == "total" && row["samples_per_ray"] == 1;
+        let of_backend: Vec<&Value> = rows.iter().filter(|row| row["backend"] == backend).filter(is_total).collect();
+        let times = |row: &&&Value| row["against"].is_null();
+        let peers: Vec<_> = of_backend.iter().filter(times).filter(|row| !row["peer"].is_null()).collect();
+        assert_eq!(peers.len(), 4, "{backend}");
+        for row in peers {
+            assert!(row["strategy"].is_null() && row["precision"].is_null(), "{row}");
+            // Distances that know no emitter.
+            assert!((0.1..=1.0).contains(&row["cdf_p999"].as_f64().unwrap()), "{row}");
+        }
+        let time = |key: &str, precision: Value| {
+            let of = |row: &&&Value| row[key] == "equi-angular" && row["precision"] == precision;
+            of_backend.iter().filter(times).find(of).unwrap()["ns_per_sample"].as_f64().unwrap()
+        };
+        for precision in Precision::ALL {
+            let of = |row: &&&Value| row["against"] == "peer" && row["precision"] == precision.name();
+            let ratio = of_backend.iter().find(of).unwrap()["ratio"].as_f64().unwrap();
+            let expected = time("peer", Value::Null) / time("strategy", precision.name().into());
+            assert!((ratio / expected - 1.0).abs() < 1e-9, "{backend}, {precision}: {ratio} is not {expected}");
+        }
+    }
+}
+
+#[test]
+fn a_library_without_a_width_has_that_of_the_fastest_backend() {
+    let folder = TempDir::new().unwrap();
+    let library = peer_library::build(folder.path());
+    let options = ["--quick", "--rays", "64", "--threads", "1", "--rounds", "1", "--strategy", "equi-angular"];
+    let rows = rows(&[&options[..], &["--peers", &library]].concat());
+    let fastest = Backend::available().next().unwrap().name();
+    let peers: Vec<&Value> = rows.iter().filter(|row| !row["peer"].is_null()).collect();
+    assert!(!peers.is_empty() && peers.iter().all(|row| row["backend"] == fastest), "{peers:?}");
 }
 
 #[test]
@@ -178,7 +254,13 @@ fn a_refused_argument_is_named() {
         (&["--rounds", "0"], "--rounds <ROUNDS>': expected a whole number of at least 1"),
         (&["--strategy", "best"], "no strategy is called 'best'; there are transmittance"),
         (&["--backend", "best"], "this machine has no backend of that name; it has "),
+        (&["--precision", "double"], "no precision is called 'double'; there are exact, fast"),
+        (&["--strategy", "taylor-phase", "--precision", "fast"], "the strategy taylor-phase has no fast precision"),
         (&["--peers", "no/such/library.so"], "cannot load no/such/library.so"),
+        (&["--peers", "portable=no/such/library.so"], "cannot load no/such/library.so"),
+        (&["--peers", "a=b/library.so"], "--peers <[BACKEND=]LIBRARY.so>': this machine has no backend of that name"),
+        (&["--peers", "a/b=c/library.so"], "cannot load a/b=c/library.so"),
+        (&["--backend", "scalar", "--peers", "portable=x.so"], "--peers portable=x.so: the backend portable is not"),
     ] {
         let output = profile(arguments);
         let told = String::from_utf8(output.stderr).unwrap();

@@ -1,6 +1,6 @@
 //! `airlight render` as it is met from outside, and its pictures held against quadrature.
 
-use airlight::{Emitter, Ray, Sampler, Strategy, oracle};
+use airlight::{Emitter, Precision, Ray, Sampler, Strategy, oracle};
 use airlight_tools::renderer::camera::{Camera, View};
 use airlight_tools::renderer::emitter_choice::EmitterChoice;
 use airlight_tools::renderer::film::{Film, Layer};
@@ -360,12 +360,28 @@ fn json_tells_what_was_rendered() {
     let figures: Value = serde_json::from_str(&json).unwrap();
     let mut keys: Vec<&String> = figures.as_object().unwrap().keys().collect();
     keys.sort();
-    let expected = "airlight_share height lights mis msamples_per_s passes radiance samples scene seconds seed strategy \
+    let expected = "airlight_share height lights mis msamples_per_s passes precision radiance samples scene seconds seed strategy \
                     threads version width";
     assert_eq!(keys, expected.split_whitespace().collect::<Vec<_>>());
     assert_eq!((&figures["scene"], &figures["strategy"]), (&"shaft".into(), &"product-9".into()));
+    assert_eq!(figures["precision"], "exact");
     assert_eq!((&figures["passes"], &figures["samples"]), (&3.into(), &(2 * 3 * 200).into()));
     assert!((0.0..=1.0).contains(&figures["airlight_share"].as_f64().unwrap()), "{json}");
+}
+
+#[test]
+fn a_picture_or_a_comparison_has_the_precision_that_was_asked_for() {
+    let arguments = ["--size", "20x10", "--spp", "1", "--precision", "fast", "--json", "-"];
+    let picture: Value = serde_json::from_str(&succeed_without_a_picture(&arguments)).unwrap();
+    assert_eq!(picture["precision"], "fast");
+    let json = succeed(&[&arguments[..], &["--compare", "--reference", "2"]].concat());
+    let comparison: Value = serde_json::from_str(&json).unwrap();
+    let names = |row: &Value| ["strategy", "precision"].map(|key| row[key].as_str().unwrap().to_owned());
+    let fast = Strategy::ALL.iter().filter(|strategy| strategy.has_precision(Precision::Fast));
+    assert_eq!(
+        comparison["results"].as_array().unwrap().iter().map(names).collect::<Vec<_>>(),
+        fast.map(|strategy| [strategy.name(), "fast"].map(str::to_owned)).collect::<Vec<_>>()
+    );
 }
 
 #[test]
@@ -437,6 +453,7 @@ fn a_refused_argument_is_named() {
         (&["--spp", "0"], "--spp <N>': expected a whole number of at least 1"),
         (&["--lights", "best"], "--lights <NAME>': expected uniform or radiance"),
         (&["--strategy", "best"], "no strategy is called 'best'; there are transmittance"),
+        (&["--strategy", "taylor-phase", "--precision", "fast"], "the strategy taylor-phase has no fast precision"),
         (&["--strategy", "product-3", "--strategy", "product-5"], "several --strategy need --compare"),
     ] {
         let told = fail(&[&["--out", text(&out)], arguments].concat());

@@ -1,6 +1,8 @@
 //! `airlight report` as it is met from outside: one run, whose files the tests look at.
 
-use airlight::Strategy;
+mod peer_library;
+
+use airlight::{Precision, Strategy};
 use roxmltree::{Document, ParsingOptions};
 use serde_json::Value;
 use std::fs;
@@ -32,7 +34,9 @@ static REPORT: LazyLock<TempDir> = LazyLock::new(|| {
     let sizes = ["--quick", "--scenes", "20", "--rays", "4096", "--samples", "131072", "--rounds", "1"];
     let batches = ["--batch", "4096", "--batch", "8192"];
     let out = folder.path().join("new/folder");
-    let output = report(&[&["--out", out.to_str().unwrap()], &sizes[..], &batches].concat());
+    let library = peer_library::build(folder.path());
+    let peers = ["--peers", &library];
+    let output = report(&[&["--out", out.to_str().unwrap()], &sizes[..], &batches, &peers].concat());
     let told = String::from_utf8(output.stderr).unwrap();
     assert_eq!((output.status.code(), output.stdout.len()), (Some(0), 0), "{told}");
     assert!(told.trim().ends_with("index.html"), "{told}");
@@ -67,10 +71,51 @@ fn marks(document: &Document<'_>, colour: &str) -> usize {
     document.descendants().filter(filled).count()
 }
 
+/// Every strategy in every precision that it has.
+fn samplers() -> impl Iterator<Item = (Strategy, Precision)> {
+    let of = |strategy: Strategy| Precision::ALL.iter().map(move |&precision| (strategy, precision));
+    let all = Strategy::ALL.iter().flat_map(move |&strategy| of(strategy));
+    all.filter(|(strategy, precision)| strategy.has_precision(*precision))
+}
+
+#[test]
+fn rows_with_a_strategy_say_its_precision() {
+    let names = |row: &Value| Some([row["strategy"].as_str()?, row["precision"].as_str()?].map(str::to_owned));
+    let both: Vec<_> =
+        samplers().map(|(strategy, precision)| [strategy.name(), precision.name()].map(str::to_owned)).collect();
+    assert_eq!(json("summary.json").iter().filter_map(names).collect::<Vec<_>>(), both);
+    for file in ["accuracy.json", "profile.json"] {
+        let found: Vec<_> = json(file).iter().filter_map(names).collect();
+        assert!(both.iter().all(|pair| found.contains(pair)), "{file}");
+    }
+    let sample: Value = serde_json::from_str(&text("sample.json")).unwrap();
+    let exact = |rows: &[Value]| rows.iter().all(|row| row["precision"] == "exact");
+    assert!(exact(sample["results"].as_array().unwrap()) && exact(&json("variance-broad.json")));
+}
+
+#[test]
+fn figure_2_has_both_precisions_and_the_peers() {
+    let svg = text("figure-2.svg");
+    let document = parse(&svg);
+    // A polygon and its edge; the legend has filled ones.
+    let fast = samplers().filter(|(_, precision)| *precision == Precision::Fast).count();
+    assert_eq!(marks(&document, "#FFFFFF"), fast);
+    let exact = json("summary.json").iter().filter(|row| row["precision"] == "exact").cloned().collect::<Vec<_>>();
+    assert!(exact.iter().all(|row| marks(&document, row["colour"].as_str().unwrap()) == 2));
+    let peers = ["equi-angular", "point-normal", "taylor-transmittance-4", "taylor-transmittance-8"];
+    for peer in peers {
+        assert!(
+            document.descendants().any(|node| node.text().is_some_and(|text| text.trim() == format!("peer {peer}"))),
+            "{peer}"
+        );
+    }
+    assert_eq!(document.descendants().filter(|node| node.tag_name().name() == "circle").count(), peers.len());
+}
+
 #[test]
 fn every_figure_has_a_mark_for_every_strategy() {
     let summary = json("summary.json");
-    assert_eq!(summary.len(), Strategy::ALL.len());
+    assert_eq!(summary.len(), samplers().count());
     for name in FIGURES {
         let svg = text(&format!("{name}.svg"));
         let document = parse(&svg);
@@ -94,11 +139,12 @@ fn the_summary_is_what_the_measurements_say() {
     for row in &summary {
         let name = &row["strategy"];
         let of = |other: &&Value| other["strategy"] == *name;
+        let of_both = |other: &&Value| of(other) && other["precision"] == row["precision"];
         let means: Vec<f64> = canonical.iter().filter(of).map(|row| number(&row["mean"])).collect();
         assert_eq!(means.len(), 4, "{name}");
         assert!(close(number(&row["variance_canonical"]), means.iter().sum::<f64>() / 4.0), "{row}");
-        assert!(profile.iter().any(|time| of(&time) && time["ns_per_sample"] == row["ns_per_sample"]), "{row}");
-        assert!(accuracy.iter().any(|errors| of(&errors) && errors["cdf_p999"] == row["cdf_p999"]), "{row}");
+        assert!(profile.iter().any(|time| of_both(&time) && time["ns_per_sample"] == row["ns_per_sample"]), "{row}");
+        assert!(accuracy.iter().any(|errors| of_both(&errors) && errors["cdf_p999"] == row["cdf_p999"]), "{row}");
         assert!(close(number(&row["efficiency"]), equi_angular / cost(row)), "{row}");
     }
 }

@@ -9,8 +9,8 @@ use std::fs;
 use std::process::{Command, Output};
 use tempfile::TempDir;
 
-const KEYS: [&str; 10] =
-    ["invalid", "max", "mean", "median", "p90", "p99", "scenes", "set", "share_above_1", "strategy"];
+const KEYS: [&str; 11] =
+    ["invalid", "max", "mean", "median", "p90", "p99", "precision", "scenes", "set", "share_above_1", "strategy"];
 
 fn variance(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_airlight")).arg("variance").args(arguments).output().unwrap()
@@ -45,6 +45,7 @@ fn json_has_a_row_for_every_density_in_their_order() {
         let keys: Vec<&String> = row.as_object().unwrap().keys().collect();
         assert_eq!(keys, KEYS);
         assert_eq!((&row["set"], &row["scenes"]), (&Value::from("broad"), &Value::from(20)));
+        assert_eq!(row["precision"], "exact");
     }
 }
 
@@ -96,6 +97,7 @@ fn a_refused_argument_is_named() {
         (&["--set", "no-such-wavefront.npz"], "cannot read no-such-wavefront.npz"),
         (&["--scenes", "0"], "at least 1"),
         (&["--strategy", "product-4"], "no strategy is called 'product-4'"),
+        (&["--precision", "fast"], "--precision fast: variances are those of the densities in exact arithmetic"),
     ] {
         let line = fail(arguments);
         assert!(line.contains(told), "{line}");
@@ -108,6 +110,7 @@ fn the_search_finds_worse_than_the_mean_and_says_where() {
     assert_eq!(rows.iter().map(|row| row["largest_g"].as_f64().unwrap() as f32).collect::<Vec<_>>(), [0.9, 0.99]);
     for row in rows {
         assert!(row["variance"].as_f64().unwrap() > 0.05, "{row}");
+        assert_eq!(row["precision"], "exact", "{row}");
         assert!(row["place"]["g"].as_f64().unwrap().abs() <= row["largest_g"].as_f64().unwrap(), "{row}");
     }
 }

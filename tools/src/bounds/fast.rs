@@ -1,4 +1,5 @@
-//! The promises of [`Precision::Fast`](airlight::Precision::Fast), the same for all strategies that have it.
+//! The promises of [`Precision::Fast`](airlight::Precision::Fast), the same for all strategies that have it: nothing that
+//! is not finite, nothing out of range, and what [`LIMITS`] has.
 
 use super::{Bound, high_quantile};
 use crate::errors::{Errors, quantile};

@@ -130,16 +130,17 @@ impl Peers {
         Subject { peer: Some(peer.name()), backend: Some(self.backend.name()), stage: Some(TOTAL), ..of }
     }
 
-    /// What 0.1 % of the first `rays` rays exceed in `|CDF(t) - u|`.
+    /// What 0.1 % of the first `rays` rays that are lit and have a sample exceed in `|CDF(t) - u|`.
     pub(super) fn cdf_p999(&self, peer: Peer, rays: usize, workload: &mut Workload) -> f64 {
         let cases = workload.one_by_one(rays);
         let mut call = workload.call(rays, 1, Wanted::Densities);
         self.sample(peer, &mut call);
         let (emitter, medium) = (emitter(), medium());
         let error = |(((ray, u), &t), &pdf): ((&(Ray, f32), &f32), &f32)| {
-            let error = || (Scene::new(ray, &emitter, &medium).cdf(peer.strategy(), t.into()) - f64::from(*u)).abs();
+            let scene = Scene::new(ray, &emitter, &medium);
+            let error = (scene.cdf(peer.strategy(), t.into()) - f64::from(*u)).abs();
             // What is no number is as bad as can be.
-            (pdf > 0.0).then(|| if t.is_finite() { error() } else { 1.0 })
+            (pdf > 0.0 && scene.lit().is_some()).then_some(if error < 1.0 { error } else { 1.0 })
         };
         let drawn = cases.par_iter().zip(&*call.samples.t).zip(&*call.samples.pdf);
         let mut errors: Vec<f64> = drawn.filter_map(error).collect();
