@@ -1,11 +1,12 @@
 //! On generic scenes f32 results stand at the f32 floor: every bound holds, and the errors of the CDF are those that
 //! exact arithmetic would have, rounded once.
 
-use airlight::{Precision, Sampler, Strategy};
+use airlight::{Sampler, Strategy};
 use airlight_tools::backends::distinct;
 use airlight_tools::bounds::bounds;
 use airlight_tools::errors::{Errors, quantile};
 use airlight_tools::families::Family;
+use airlight_tools::samplers;
 
 const RAYS: usize = 1 << 16;
 
@@ -14,11 +15,9 @@ fn generic_rays_are_within_the_bounds() {
     let mut backends = 0;
     for backend in distinct() {
         backends += 1;
-        let all = Strategy::ALL
-            .iter()
-            .flat_map(|strategy| Precision::ALL.iter().map(move |precision| (*strategy, *precision)));
-        for (strategy, precision) in all.filter(|(strategy, precision)| strategy.has_precision(*precision)) {
-            let sampler = Sampler::new(strategy).with_precision(precision).unwrap().with_backend(backend);
+        for sampler in samplers::all() {
+            let (strategy, precision) = (sampler.strategy(), sampler.precision());
+            let sampler = sampler.with_backend(backend);
             let errors = Errors::measure(&sampler, Family::Generic, RAYS, 101, |_| ());
             assert!(errors.sampled > RAYS / 2, "{strategy}: {} of {RAYS} rays sampled", errors.sampled);
             for bound in bounds(strategy, precision, Family::Generic) {

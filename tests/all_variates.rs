@@ -2,7 +2,8 @@
 //! the origin, infinite rays included.
 
 use airlight::oracle::Scene;
-use airlight::{Emitter, Emitters, Media, Medium, Ray, Rays, Sampler, Samples, Strategy};
+use airlight::{Emitter, Emitters, Media, Medium, Ray, Rays, Samples, Strategy};
+use airlight_tools::samplers;
 use glam::Vec3;
 
 /// The multiples of 2^-24 below 1.
@@ -44,7 +45,8 @@ fn the_mean_over_all_variates_is_the_radiance() {
         let [zero, one] = [0.0, 1.0].map(column);
         let (t_min, t_max) = (column(ray.t_min()), column(ray.t_max()));
         let rays = Rays { origin: [&zero; 3], direction: [&zero, &zero, &one], t_min: &t_min, t_max: &t_max };
-        for &strategy in Strategy::ALL {
+        for sampler in samplers::all() {
+            let (strategy, precision) = (sampler.strategy(), sampler.precision());
             let [mut t, mut pdf, mut weight, mut u] = [(); 4].map(|()| column(0.0));
             let (mut sum, mut largest) = (0.0, 0.0f64);
             for first in (0..VARIATES).step_by(BATCH) {
@@ -53,7 +55,7 @@ fn the_mean_over_all_variates_is_the_radiance() {
                 }
                 let mut samples = Samples { t: &mut t, pdf: &mut pdf, weight: Some(&mut weight), r: None };
                 let (emitters, media) = (Emitters::One(emitter), Media::One(medium));
-                Sampler::new(strategy).sample(&rays, &emitters, &media, &u, &mut samples).unwrap();
+                sampler.sample(&rays, &emitters, &media, &u, &mut samples).unwrap();
                 sum += weight.iter().map(|&w| f64::from(w)).sum::<f64>();
                 largest = weight.iter().fold(largest, |largest, &w| largest.max(w.into()));
             }
@@ -61,13 +63,19 @@ fn the_mean_over_all_variates_is_the_radiance() {
             let error = (mean / radiance - 1.0).abs();
             let bound = supremum(&scene, strategy);
             println!(
-                "{strategy}: h {} t_h {} error {error:.1e}, largest {:.3}",
+                "{strategy}, {precision}: h {} t_h {} error {error:.1e}, largest {:.3}",
                 scene.h(),
                 scene.t_h(),
                 largest / bound
             );
-            assert!(error < 1e-4, "{strategy}: {mean:e} is not {radiance:e}, {ray:?} {emitter:?} {medium:?}");
-            assert!(largest <= 2.0 * bound, "{strategy}: weight {largest:e} over {bound:e}, {ray:?} {emitter:?}");
+            assert!(
+                error < 1e-4,
+                "{strategy}, {precision}: {mean:e} is not {radiance:e}, {ray:?} {emitter:?} {medium:?}"
+            );
+            assert!(
+                largest <= 2.0 * bound,
+                "{strategy}, {precision}: weight {largest:e} over {bound:e}, {ray:?} {emitter:?}"
+            );
         }
     }
 }

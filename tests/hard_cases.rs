@@ -3,27 +3,22 @@
 
 use airlight::glam::Vec3;
 use airlight::oracle::Scene;
-use airlight::{Emitter, Medium, Precision, Ray, Sampler, Strategy};
+use airlight::{Emitter, Medium, Ray, Sampler, Strategy};
 use airlight_tools::backends::distinct;
 use airlight_tools::bounds::bounds;
 use airlight_tools::errors::Errors;
 use airlight_tools::families::Family;
+use airlight_tools::samplers;
 
 const RAYS: usize = 1 << 14;
-
-/// Every strategy in every precision that it has.
-fn kernels() -> impl Iterator<Item = (Strategy, Precision)> {
-    let all =
-        Strategy::ALL.iter().flat_map(|&strategy| Precision::ALL.iter().map(move |&precision| (strategy, precision)));
-    all.filter(|(strategy, precision)| strategy.has_precision(*precision))
-}
 
 fn holds(family: Family) {
     let mut backends = 0;
     for backend in distinct() {
         backends += 1;
-        for (strategy, precision) in kernels() {
-            let sampler = Sampler::new(strategy).with_precision(precision).unwrap().with_backend(backend);
+        for sampler in samplers::all() {
+            let (strategy, precision) = (sampler.strategy(), sampler.precision());
+            let sampler = sampler.with_backend(backend);
             let errors = Errors::measure(&sampler, family, RAYS, 201, |_| ());
             assert!(errors.sampled > RAYS / 40, "{strategy}, {precision}: {} of {RAYS} rays", errors.sampled);
             for bound in bounds(strategy, precision, family) {

@@ -11,6 +11,7 @@ mod draw;
 pub mod errors;
 pub mod families;
 pub mod renderer;
+pub mod samplers;
 pub mod scenes;
 pub mod threads;
 pub mod variates;

@@ -5,6 +5,7 @@ use airlight_tools::backends::distinct;
 use airlight_tools::bounds::bounds;
 use airlight_tools::errors::Errors;
 use airlight_tools::families::Family;
+use airlight_tools::samplers;
 use serde_json::Value;
 use std::process::{Command, Output};
 
@@ -12,7 +13,7 @@ fn accuracy(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_airlight")).arg("accuracy").args(arguments).output().unwrap()
 }
 
-/// Strategy and precision of every row of JSON, backend by backend, and all keys.
+/// The rows of a run on few generic rays that must succeed.
 fn rows(arguments: &[&str]) -> Vec<Value> {
     let output = accuracy(&[&["--rays", "2048", "--family", "generic", "--json", "-"], arguments].concat());
     let stderr = String::from_utf8(output.stderr).unwrap();
@@ -20,24 +21,22 @@ fn rows(arguments: &[&str]) -> Vec<Value> {
     serde_json::from_slice(&output.stdout).unwrap()
 }
 
-fn samplers(rows: &[Value]) -> Vec<(&str, &str)> {
+/// Strategy and precision of every row.
+fn measured(rows: &[Value]) -> Vec<(&str, &str)> {
     rows.iter().map(|row| (row["strategy"].as_str().unwrap(), row["precision"].as_str().unwrap())).collect()
 }
 
-/// Those of every backend, of these precisions.
+/// Those of every backend that there must be, of these precisions.
 fn expected(precisions: &[Precision]) -> Vec<(&'static str, &'static str)> {
-    let pair = |strategy: Strategy| {
-        let of = precisions.iter().filter(move |&&precision| strategy.has_precision(precision));
-        of.map(move |precision| (strategy.name(), precision.name()))
-    };
-    let once: Vec<_> = Strategy::ALL.iter().flat_map(|&strategy| pair(strategy)).collect();
+    let of = samplers::all().filter(|sampler| precisions.contains(&sampler.precision()));
+    let once: Vec<_> = of.map(|sampler| (sampler.strategy().name(), sampler.precision().name())).collect();
     once.repeat(distinct().count())
 }
 
 #[test]
 fn every_strategy_is_measured_in_every_precision_that_it_has() {
     let rows = rows(&[]);
-    assert_eq!(samplers(&rows), expected(Precision::ALL));
+    assert_eq!(measured(&rows), expected(Precision::ALL));
     for row in &rows {
         assert!(row["cdf_p999"].is_f64() && row["misjudged"].is_u64() && row["misjudged_light"].is_f64(), "{row}");
     }
@@ -45,9 +44,9 @@ fn every_strategy_is_measured_in_every_precision_that_it_has() {
 
 #[test]
 fn strategies_without_the_precision_are_left_out() {
-    assert_eq!(samplers(&rows(&["--precision", "fast"])), expected(&[Precision::Fast]));
+    assert_eq!(measured(&rows(&["--precision", "fast"])), expected(&[Precision::Fast]));
     let taylor = rows(&["--strategy", "taylor-phase"]);
-    assert_eq!(samplers(&taylor), vec![("taylor-phase", "exact"); distinct().count()]);
+    assert_eq!(measured(&taylor), vec![("taylor-phase", "exact"); distinct().count()]);
 }
 
 #[test]

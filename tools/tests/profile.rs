@@ -2,7 +2,8 @@
 
 mod peer_library;
 
-use airlight::{Backend, Precision, Strategy};
+use airlight::{Backend, Precision};
+use airlight_tools::samplers;
 use serde_json::Value;
 use std::process::{Command, Output};
 use tempfile::TempDir;
@@ -11,11 +12,9 @@ fn profile(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_airlight")).arg("profile").args(arguments).output().unwrap()
 }
 
-/// Every strategy in every precision that it has.
-fn samplers() -> impl Iterator<Item = (Strategy, Precision)> {
-    let of = |strategy: Strategy| Precision::ALL.iter().map(move |&precision| (strategy, precision));
-    let all = Strategy::ALL.iter().flat_map(move |&strategy| of(strategy));
-    all.filter(|(strategy, precision)| strategy.has_precision(*precision))
+/// The names of every strategy in every precision that it has.
+fn samplers() -> impl Iterator<Item = [&'static str; 2]> {
+    samplers::all().map(|sampler| [sampler.strategy().name(), sampler.precision().name()])
 }
 
 /// The rows of a run that must succeed and say nothing on standard error.
@@ -35,16 +34,15 @@ fn every_strategy_is_measured_in_every_precision_on_every_backend_and_number_of_
     let rows = rows(&["--rays", "64", "--rays", "71", "--threads", "1", "--threads", "2", "--rounds", "1"]);
     for row in &rows {
         let names = [&row["strategy"], &row["precision"]].map(|name| name.as_str().unwrap_or(""));
-        let has_both = samplers().any(|(strategy, precision)| names == [strategy.name(), precision.name()]);
-        assert!(has_both || names == ["", ""], "{row}");
+        assert!(samplers().any(|sampler| names == sampler) || names == ["", ""], "{row}");
     }
-    for (strategy, precision) in samplers() {
+    for [strategy, precision] in samplers() {
         for backend in Backend::available() {
             for threads in [1, 2] {
                 for rays in [64, 71] {
                     let whole = |row: &&Value| {
-                        row["strategy"] == strategy.name()
-                            && row["precision"] == precision.name()
+                        row["strategy"] == strategy
+                            && row["precision"] == precision
                             && row["backend"] == backend.name()
                             && row["threads"] == threads
                             && row["rays"] == rays
@@ -105,7 +103,7 @@ fn limits_and_ratios_are_rows_of_the_same_list() {
     assert_eq!(ratio("equi-angular", "equi-angular", 1), 1.0);
     // Fast against exact.
     let fast: Vec<&Value> = rows.iter().filter(|row| row["against"] == "exact").collect();
-    let both = samplers().filter(|(_, precision)| *precision == Precision::Fast).count();
+    let both = samplers().filter(|[_, precision]| *precision == "fast").count();
     assert_eq!(fast.len(), both);
     assert!(fast.iter().all(|row| row["precision"] == "fast" && is_positive(&row["ratio"])), "{fast:?}");
     // The set-up is shared by 8 samples.
@@ -218,6 +216,20 @@ fn a_library_without_a_width_has_that_of_the_fastest_backend() {
     let fastest = Backend::available().next().unwrap().name();
     let peers: Vec<&Value> = rows.iter().filter(|row| !row["peer"].is_null()).collect();
     assert!(!peers.is_empty() && peers.iter().all(|row| row["backend"] == fastest), "{peers:?}");
+}
+
+#[test]
+fn instructions_are_counted_in_every_precision_where_there_is_valgrind() {
+    let output = profile(&["--instructions", "--strategy", "transmittance", "--json", "-"]);
+    let told = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(0), "{told}");
+    if told.starts_with("valgrind is missing") {
+        return;
+    }
+    let rows: Vec<Value> = serde_json::from_slice(&output.stdout).unwrap();
+    let names: Vec<&str> = rows.iter().map(|row| row["precision"].as_str().unwrap()).collect();
+    assert_eq!(names, ["exact", "fast"]);
+    assert!(rows.iter().all(|row| is_positive(&row["instructions_per_ray"])), "{rows:?}");
 }
 
 #[test]
