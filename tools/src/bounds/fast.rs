@@ -5,8 +5,11 @@ use super::{Bound, high_quantile};
 use crate::errors::{Errors, quantile};
 use crate::families::Family;
 
-/// What is bounded besides, and how it is read off.
-const FIGURES: [(&str, fn(&Errors) -> f64); 5] = [
+/// A figure, and how it is read off.
+type Figure = (&'static str, fn(&Errors) -> f64);
+
+/// What is bounded besides.
+const FIGURES: [Figure; 5] = [
     ("misjudged_light", |e| e.misjudged_light),
     ("cdf_p999", |e| quantile(&e.cdf, 0.999)),
     ("cdf_beyond_t_max", |e| quantile(&e.cdf_beyond_t, 1.0)),
