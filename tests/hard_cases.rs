@@ -86,6 +86,11 @@ fn arbitrary_bits() {
     holds(Family::RandomBits);
 }
 
+#[test]
+fn peaks_of_the_phase_function_next_to_emitters() {
+    holds(Family::Peaks);
+}
+
 /// `N` is about `grade` all along the ray, 0 at t = 2: its squares leave f32, then its products, then `1/beta`.
 #[test]
 fn emitters_seen_edge_on() {

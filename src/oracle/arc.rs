@@ -88,7 +88,7 @@ impl Arc {
             let slope = |t_prime: f64, r: f64| (n.beta * h - n.alpha_h * (t_prime / h)) / r;
             [(height_a / r_a, slope(a, r_a)), (height_b / r_b, slope(b, r_b))]
         });
-        let width = subtended(h, t_b - t_a, a, b);
+        let width = subtended(h, length((t_a, a), (t_b, b)), a, b);
         Some(Self { t_a, t_b, a, b, h, t_h, psi_a: h.atan2(-a), chi_b: h.atan2(b), width, cosines })
     }
 
@@ -117,19 +117,22 @@ impl Arc {
     /// The direction of the point at `t` \[m\] between `t_a` and `t_b`.
     pub(super) fn at(&self, t: f64) -> Angle {
         let t_prime = t - self.t_h;
-        Angle {
-            from_a: subtended(self.h, t - self.t_a, self.a, t_prime),
-            to_b: subtended(self.h, self.t_b - t, t_prime, self.b),
-        }
-    }
-
-    /// The same by the point's distances \[m\] from the start and to the end.
-    pub(super) fn between_ends(&self, after_a: f64, before_b: f64) -> Angle {
-        let t_prime = if after_a <= before_b { self.a + after_a } else { self.b - before_b };
+        let (after_a, before_b) = self.offsets(t);
         Angle {
             from_a: subtended(self.h, after_a, self.a, t_prime),
             to_b: subtended(self.h, before_b, t_prime, self.b),
         }
+    }
+
+    /// How far the point at `t` \[m\] between `t_a` and `t_b` is behind the start and before the end \[m\].
+    pub(super) fn offsets(&self, t: f64) -> (f64, f64) {
+        let at = (t, t - self.t_h);
+        (length((self.t_a, self.a), at), length(at, (self.t_b, self.b)))
+    }
+
+    /// `t_b - t_a` \[m\].
+    pub(super) fn length(&self) -> f64 {
+        length((self.t_a, self.a), (self.t_b, self.b))
     }
 
     /// The distance \[m\] of the point in a direction, from the nearer end by the law of sines.
@@ -184,6 +187,15 @@ impl Arc {
     fn chi(&self, angle: Angle) -> f64 {
         self.chi_b + angle.to_b
     }
+}
+
+/// The distance \[m\] between two points, each given by its `t` and `t'`, as the difference of the smaller numbers.
+///
+/// An end where `N = 0` next to an emitter has more digits of `t'` than of `t`. Of differences of `t`, one from the start and
+/// one to such an end, the sum would be another than that of `t'`, and the point in two places.
+fn length((t_0, t_prime_0): (f64, f64), (t_1, t_prime_1): (f64, f64)) -> f64 {
+    let near = t_prime_0.abs().max(t_prime_1.abs()) < t_0.abs().max(t_1.abs());
+    if near { (t_prime_1 - t_prime_0).max(0.0) } else { t_1 - t_0 }
 }
 
 /// The angle at the emitter between the points at `a` and `b` from the perpendicular's foot, `length` apart \[m\].

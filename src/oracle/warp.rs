@@ -36,7 +36,7 @@ impl Warp {
     /// The map whose scale is `y_c` \[m\].
     pub(super) fn new(arc: Arc, y_c: f64) -> Self {
         let [x_a, x_b] = [arc.a, arc.b].map(|t_prime| half_angle(arc.h, t_prime));
-        let y_b = rise(arc.h, arc.t_b - arc.t_a, arc.a, arc.b);
+        let y_b = rise(arc.h, arc.length(), arc.a, arc.b);
         Self { arc, x_a, x_b, y_b, y_c, e: y_c / y_b }
     }
 
@@ -45,11 +45,17 @@ impl Warp {
         self.y_c * at.v / (self.e + at.to_1)
     }
 
+    /// `Y_b - Y` \[m\].
+    fn y_to_end(&self, at: Variable) -> f64 {
+        self.y_b * (1.0 + self.e) * at.to_1 / (self.e + at.to_1)
+    }
+
     /// The value of the variable at `t` \[m\] between the ends.
     pub(super) fn at(&self, t: f64) -> Variable {
         let t_prime = t - self.arc.t_h;
-        let y = rise(self.arc.h, t - self.arc.t_a, self.arc.a, t_prime);
-        let to_y_b = rise(self.arc.h, self.arc.t_b - t, t_prime, self.arc.b);
+        let (after_a, before_b) = self.arc.offsets(t);
+        let y = rise(self.arc.h, after_a, self.arc.a, t_prime);
+        let to_y_b = rise(self.arc.h, before_b, t_prime, self.arc.b);
         Variable { v: (1.0 + self.e) * y / (y + self.y_c), to_1: self.e * to_y_b / (y + self.y_c) }
     }
 
@@ -63,10 +69,14 @@ impl Warp {
         }
     }
 
-    /// The direction of a place.
+    /// The direction of a place: twice the difference of two half angles, whose tangents are `X/h`.
+    ///
+    /// Sums of positive numbers alone: next to a near emitter the distance `t'` of the place has lost its digits.
     pub(super) fn angle(&self, at: Variable) -> Angle {
-        let (after_a, before_b) = self.offsets(at);
-        self.arc.between_ends(after_a, before_b)
+        let (h, y) = (self.arc.h, self.y(at));
+        let x = self.x_a + y;
+        let between = |rise: f64, x_end: f64| 2.0 * (h * rise).atan2(h * h + x_end * x);
+        Angle { from_a: between(y, self.x_a), to_b: between(self.y_to_end(at), self.x_b) }
     }
 
     /// `dtheta/dv` \[rad\]: `dX/dtheta = X/cos theta`.
@@ -79,7 +89,7 @@ impl Warp {
     fn offsets(&self, at: Variable) -> (f64, f64) {
         let h = self.arc.h;
         let y = self.y(at);
-        let to_y_b = self.y_b * (1.0 + self.e) * at.to_1 / (self.e + at.to_1);
+        let to_y_b = self.y_to_end(at);
         let x = self.x_a + y;
         (0.5 * y * (1.0 + h / x * (h / self.x_a)), 0.5 * to_y_b * (1.0 + h / x * (h / self.x_b)))
     }
@@ -136,6 +146,19 @@ mod tests {
                     assert!((back.to_1 - at.to_1).abs() <= rounding, "{} is not 1 - {v}", back.to_1);
                 }
             }
+        }
+    }
+
+    /// Where `t_h` is 1e8 times `h`, a place next to the foot has 8 digits of `t'` and all of its direction.
+    #[test]
+    fn a_direction_past_a_near_emitter_has_all_its_digits() {
+        let arc = Arc::new(1e-6, 96.0, (0.0, 100.0), None).unwrap();
+        let warp = Warp::new(arc, 1e-6);
+        for v in [0.1, 0.3, 0.5, 0.7, 0.9] {
+            let at = Variable::new(v);
+            let half_angle = ((warp.x_a + warp.y(at)) / arc.h).atan();
+            assert_close(arc.one_plus_sin_theta(1.0, warp.angle(at)), 2.0 * half_angle.sin().powi(2), 1e-14);
+            assert_close(arc.one_plus_sin_theta(-1.0, warp.angle(at)), 2.0 * half_angle.cos().powi(2), 1e-14);
         }
     }
 

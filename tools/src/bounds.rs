@@ -75,10 +75,14 @@ fn exact(strategy: Strategy, family: Family) -> Vec<Bound> {
         bounds.push(Bound { figure: "offset_p9999", read: |e| high_quantile(&e.offset, 0.9999), limit });
         bounds.push(Bound { figure: "offset_max", read: |e| quantile(&e.offset, 1.0), limit: 16.0 });
     }
-    // Aimed at 64, seen 50; 93 where a product density vanishes, 71 of three knots beside a peak. None for arbitrary bits, of
-    // which one in twenty is a ray: the fifth worst of 2^20 is off by 100.
+    // Aimed at 64, seen 50; 93 where a product density vanishes, 67 in 2^20 rays of three knots beside a peak. None for
+    // arbitrary bits, of which one in twenty is a ray: the fifth worst of 2^20 is off by 100.
     if family != Family::RandomBits {
-        let limit = if vanishing(strategy, family) || beside_a_peak(strategy, family) { 128.0 } else { 64.0 };
+        let limit = match family {
+            _ if vanishing(strategy, family) => 128.0,
+            _ if beside_a_peak(strategy, family) => 96.0,
+            _ => 64.0,
+        };
         bounds.push(Bound { figure: "pdf_p9999", read: |e| high_quantile(&e.pdf, 0.9999), limit });
     }
     if family == Family::NearEmitter {
@@ -114,10 +118,12 @@ fn vanishing(strategy: Strategy, family: Family) -> bool {
     strategy.has_radiance() && family == Family::Variate
 }
 
-/// Whether the line of three knots falls from a peak of the phase function to what is next to nothing, as next to an emitter:
-/// its value there is the difference of two knots more often than for any other density.
+/// Whether a line of three knots joins a peak of the phase function and next to nothing. Beside the knot where it is next to
+/// nothing, its value is the peak's times a small difference of `v`, and counts the errors of the set-up as many times as it
+/// is smaller than the peak's share. It is the set-up in f32 that limits it, not the geometry: `pdf_floor` is 1.7 at p99.99,
+/// while one rounding to f32 of the scale of `v` makes 21 ulp there, one of each value at a knot 13, and both have a dozen.
 fn beside_a_peak(strategy: Strategy, family: Family) -> bool {
-    strategy == Strategy::Product3 && family == Family::Phase
+    strategy == Strategy::Product3 && family == Family::Peaks
 }
 
 /// In ulp, as `r` and the integrand. `pdf_floor` is 1.6 at p99 at most.
@@ -129,6 +135,8 @@ fn pdf_p99(strategy: Strategy, family: Family) -> f64 {
         Family::RandomBits if strategy.has_radiance() => 10.0,
         // Seen 8.0: with three knots the line to a dark end is a difference more often.
         Family::NearEmitter if strategy == Strategy::Product3 => 9.0,
+        // Seen 15.0.
+        _ if beside_a_peak(strategy, family) => 17.0,
         // Seen 6.9; of the Taylor densities 6.1.
         _ => 8.0,
     }

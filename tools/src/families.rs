@@ -24,7 +24,7 @@ pub enum Family {
     ShortIntervals,
     /// Normals along and across the ray, ends at and next to the dark side, emitters that show their back.
     Cosine,
-    /// `g` from -1 to 1, ends included; rays as in the generic family, next to emitters and without end.
+    /// `g` from -1 to 1, ends included.
     Phase,
     /// `mu_t` from 0 to 1e4 per m, and media that are none.
     Medium,
@@ -32,11 +32,13 @@ pub enum Family {
     Ray,
     /// Every field an arbitrary bit pattern.
     RandomBits,
+    /// `1 - |g|` from 2^-24 to 1e-3, and the emitter on the ray or next to it.
+    Peaks,
 }
 
 impl Family {
     /// All of them.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Generic,
         Self::Variate,
         Self::NearEmitter,
@@ -48,6 +50,7 @@ impl Family {
         Self::Medium,
         Self::Ray,
         Self::RandomBits,
+        Self::Peaks,
     ];
 
     /// Its name on the command line and in JSON.
@@ -65,6 +68,7 @@ impl Family {
             Self::Medium => "medium",
             Self::Ray => "ray",
             Self::RandomBits => "random-bits",
+            Self::Peaks => "peaks",
         }
     }
 
@@ -81,18 +85,16 @@ impl Family {
             Self::ShortIntervals => Case::short(&mut draw),
             Self::Cosine => Case::cosine(&mut draw),
             Self::Phase => {
-                let size = draw.pick(&[0.0, 1e-8, 0.6, 0.9, 0.99, 0.999, 0.9999, 0.99999, 1.0 - EPS, 1.0]);
-                let g = size * draw.pick(&[1.0, -1.0]);
-                let case = match draw.below(4) {
-                    0 => Case::near_emitter(&mut draw),
-                    1 => Case::infinite(&mut draw),
-                    _ => Case::generic(&mut draw),
-                };
-                Case { g, ..case }
+                let g = draw.pick(&[0.0, 1e-8, -1e-8, 0.6, -0.6, 0.9, -0.9, 0.99, -0.99, 0.999, -0.999, 1.0, -1.0]);
+                Case { g, ..Case::generic(&mut draw) }
             }
             Self::Medium => Case::medium(&mut draw),
             Self::Ray => Case::ray(&mut draw),
             Self::RandomBits => Case::random_bits(&mut draw),
+            Self::Peaks => {
+                let g = draw.pick(&[1.0, -1.0]) * (1.0 - draw.log_between(EPS, 1e-3));
+                Case { g, ..Case::near_emitter(&mut draw) }
+            }
         }
     }
 }
