@@ -8,8 +8,11 @@ use crate::simd::{Isa, Lanes, MOST_LANES};
 use core::ops::Range;
 
 mod pads;
+mod runs;
 
 pub(crate) use pads::{Pad, Pads, first_values};
+use runs::Order;
+pub(crate) use runs::{Run, Turn};
 
 /// A batch of rays as a structure of arrays; every column has the length of the batch and any alignment.
 ///
@@ -87,8 +90,8 @@ pub struct Counts {
     pub sampled: usize,
     /// Valid rays without one: `t_min = t_max`, or no point of the ray is lit, or less than f32 can say anything about: an
     /// interval shorter than 1e-18 m; for all densities but the transmittance also one shorter than about 1e-36 of `r^2`,
-    /// or that subtends about 1e-30 rad; for those with the cosine 1e-25 of the light; or a ray that meets the emitter's
-    /// plane, but at an angle below 1e-30 rad.
+    /// or that subtends about 1e-30 rad; for those with the cosine 1e-25 of the light; or, it may be, a ray that meets the
+    /// emitter's plane at an angle below 1e-30 rad.
     pub empty: usize,
     /// Rays with a value that is NaN or out of range.
     pub invalid: usize,
@@ -121,15 +124,6 @@ pub(crate) struct Inputs<'a> {
     order: Order,
     /// The lanes that count, from the first to before the second; `None`: all lanes.
     counted: Option<[usize; 2]>,
-}
-
-/// How the values of a lane group lie.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Order {
-    /// Those of a lane next to each other.
-    ByLane,
-    /// Those of a turn next to each other, one for each lane.
-    ByTurn,
 }
 
 impl<'a> Inputs<'a> {
@@ -235,10 +229,9 @@ impl<'a> Inputs<'a> {
         start..end.min(lanes)
     }
 
-    /// Where the values of a turn of a lane group are.
-    #[cfg_attr(optimized, inline(always))]
-    pub(crate) fn turn(&self, group: usize, index: usize) -> Turn {
-        Turn { group, index, per_ray: self.per_ray, order: self.order }
+    /// Some turns that follow each other, of a block whose first group is given, with so many lanes.
+    pub(crate) fn run<'r>(&self, turns: &'r [Turn], first: usize, lanes: usize) -> Run<'r> {
+        Run { turns, first, lanes, per_ray: self.per_ray, order: self.order }
     }
 
     /// The same with other columns of rays, emitters and media.
@@ -295,10 +288,13 @@ pub(crate) struct RayGroups<'a, I: Isa> {
 }
 
 impl<I: Isa> RayGroups<'_, I> {
-    /// How many.
+    /// Has the rays fetched that lie so many groups after these.
     #[cfg_attr(optimized, inline(always))]
-    pub(crate) fn count(&self) -> usize {
-        self.t_min.len()
+    pub(crate) fn prefetch(&self, isa: I, index: usize, ahead: usize) {
+        let ([ox, oy, oz], [dx, dy, dz]) = (&self.origin, &self.direction);
+        for column in [ox, oy, oz, dx, dy, dz, &self.t_min, &self.t_max] {
+            isa.prefetch(&column[index], ahead);
+        }
     }
 
     /// The rays of one group.
@@ -343,14 +339,6 @@ impl Emitters<'_> {
             }
         }
     }
-
-    /// Those of another group than that of `lanes`.
-    #[cfg_attr(optimized, inline(always))]
-    pub(crate) fn renew<I: Isa>(&self, isa: I, index: usize, lanes: &mut EmitterLanes<I>) {
-        if let Self::Each { .. } = self {
-            *lanes = self.lanes(isa, index);
-        }
-    }
 }
 
 impl Media<'_> {
@@ -375,56 +363,6 @@ impl Media<'_> {
     }
 }
 
-/// Number `index` of the `per_ray` values of every lane of a group.
-#[derive(Clone, Copy)]
-pub(crate) struct Turn {
-    group: usize,
-    index: usize,
-    per_ray: usize,
-    order: Order,
-}
-
-impl Turn {
-    /// The numbers of this turn.
-    #[cfg_attr(optimized, inline(always))]
-    pub(crate) fn load<I: Isa>(self, isa: I, column: &[f32]) -> I::V {
-        if self.order == Order::ByTurn {
-            return isa.load(&I::groups(column)[self.group * self.per_ray + self.index]);
-        }
-        let mut lanes = [0.0; MOST_LANES];
-        self.gather(column, &mut lanes[..I::V::N]);
-        isa.load(&I::groups(&lanes)[0])
-    }
-
-    /// Writes them.
-    #[cfg_attr(optimized, inline(always))]
-    pub(crate) fn store<I: Isa>(self, isa: I, value: I::V, column: &mut [f32]) {
-        if self.order == Order::ByTurn {
-            return isa.store(value, &mut I::groups_mut(column)[self.group * self.per_ray + self.index]);
-        }
-        let mut lanes = [0.0; MOST_LANES];
-        isa.store(value, &mut I::groups_mut(&mut lanes)[0]);
-        self.scatter(&lanes[..I::V::N], column);
-    }
-
-    // Apart: inlined, their addresses are computed for every lane group ahead of the branch that skips them.
-    #[inline(never)]
-    fn gather(self, column: &[f32], lanes: &mut [f32]) {
-        let of_group = &column[self.group * lanes.len() * self.per_ray..];
-        for (lane, of_ray) in lanes.iter_mut().zip(of_group.chunks(self.per_ray)) {
-            *lane = of_ray[self.index];
-        }
-    }
-
-    #[inline(never)]
-    fn scatter(self, lanes: &[f32], column: &mut [f32]) {
-        let of_group = &mut column[self.group * lanes.len() * self.per_ray..];
-        for (lane, of_ray) in lanes.iter().zip(of_group.chunks_mut(self.per_ray)) {
-            of_ray[self.index] = *lane;
-        }
-    }
-}
-
 /// The columns that a call writes, wherever they are.
 pub(crate) trait Outputs {
     type At<'a>: Send;
@@ -434,6 +372,9 @@ pub(crate) trait Outputs {
 
     /// Those of `range`, borrowed.
     fn part<'b>(out: &'b mut Self::At<'_>, range: Range<usize>) -> Self::At<'b>;
+
+    /// Has `write` write the values of a run, which for it lie next to each other.
+    fn of_run<R>(out: &mut Self::At<'_>, run: Run<'_>, write: impl FnOnce(Self::At<'_>) -> R) -> R;
 
     /// Has `write` write to pads, and takes from there as many values as there are.
     fn by_pads<R>(out: Self::At<'_>, write: impl FnOnce(Self::At<'_>) -> R) -> R;
@@ -451,6 +392,13 @@ impl Outputs for Column {
 
     fn part<'b>(out: &'b mut Self::At<'_>, range: Range<usize>) -> Self::At<'b> {
         &mut out[range]
+    }
+
+    fn of_run<R>(out: &mut Self::At<'_>, run: Run<'_>, write: impl FnOnce(&mut [f32]) -> R) -> R {
+        match run.together() {
+            Some(range) => write(&mut out[range]),
+            None => run.scatter(out, write),
+        }
     }
 
     fn by_pads<R>(out: &mut [f32], write: impl FnOnce(&mut [f32]) -> R) -> R {
@@ -484,6 +432,18 @@ impl Outputs for OfSamples {
         }
     }
 
+    fn of_run<R>(out: &mut Samples<'_>, run: Run<'_>, write: impl FnOnce(Samples<'_>) -> R) -> R {
+        if let Some(range) = run.together() {
+            return write(Self::part(out, range));
+        }
+        let Samples { t, pdf, weight, r } = out;
+        run.scatter(t, |t| {
+            run.scatter(pdf, |pdf| {
+                optional(run, weight, |weight| optional(run, r, |r| write(Samples { t, pdf, weight, r })))
+            })
+        })
+    }
+
     fn by_pads<R>(out: Samples<'_>, write: impl FnOnce(Samples<'_>) -> R) -> R {
         let Samples { t, pdf, weight, r } = out;
         Column::by_pads(t, |t| {
@@ -503,5 +463,13 @@ impl Outputs for OfSamples {
                 result
             })
         })
+    }
+}
+
+/// The values of a run of a column, if there is one.
+fn optional<R>(run: Run<'_>, column: &mut Option<&mut [f32]>, write: impl FnOnce(Option<&mut [f32]>) -> R) -> R {
+    match column {
+        Some(column) => run.scatter(column, |column| write(Some(column))),
+        None => write(None),
     }
 }

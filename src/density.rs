@@ -1,8 +1,8 @@
 //! What every sampled density is to the kernels: a set-up, an inverse and a pdf.
 
-use crate::geometry::{Geometry, Point};
+use crate::geometry::{Geometry, Point, RayLanes};
 use crate::integrand::MediumLanes;
-use crate::simd::Isa;
+use crate::simd::{Isa, Room};
 
 /// A density of which the instruction set is open.
 pub(crate) trait Kind {
@@ -10,30 +10,53 @@ pub(crate) trait Kind {
 }
 
 /// A density over the distances of a lane group of rays, set up for one geometry and medium.
-pub(crate) trait Density<I: Isa>: Sized {
-    /// What does not depend on the variate.
-    fn new(isa: I, geometry: &Geometry<I>, medium: &MediumLanes<I>) -> Self;
+pub(crate) trait Density<I: Isa>: Copy {
+    /// Whether it asks for the emitter's cosine.
+    const COSINE: bool;
+    /// Where a variate leads, before it is a point of the ray.
+    type Place: Copy;
+    /// Storage for the set-ups of a block, which is cut to as many lane groups where set-ups are large.
+    type SetUps: Room<SetUp<I, Self>>;
 
-    /// The point where the CDF is `u`, increasing in `u`.
-    fn invert(&self, isa: I, geometry: &Geometry<I>, u: I::V) -> Drawn<I>;
+    /// What does not depend on the variate, and which lanes can be sampled.
+    fn new(isa: I, ray: &RayLanes<I>, geometry: Geometry<'_, I>, medium: &MediumLanes<I>) -> (Self, I::Mask);
+
+    /// Where the CDF is `u`, increasing in `u`.
+    fn invert(&self, isa: I, geometry: Geometry<'_, I>, u: I::V) -> Self::Place;
+
+    /// The point of the ray there.
+    fn point(&self, isa: I, geometry: Geometry<'_, I>, place: &Self::Place) -> Drawn<I>;
 
     /// The density at a point of the support.
-    fn pdf(&self, isa: I, geometry: &Geometry<I>, point: &Point<I>) -> Pdf<I>;
-
-    /// Which lanes can be sampled.
-    #[cfg_attr(optimized, inline(always))]
-    fn lit(_: I, geometry: &Geometry<I>) -> I::Mask {
-        geometry.lit
-    }
+    fn pdf(&self, isa: I, geometry: Geometry<'_, I>, point: &Point<I>) -> Pdf<I>;
 
     /// The distances `[low, high]` that are sampled \[m\].
     #[cfg_attr(optimized, inline(always))]
-    fn support(geometry: &Geometry<I>) -> [I::V; 2] {
-        [geometry.a.t, geometry.b.t]
+    fn support(&self, geometry: Geometry<'_, I>) -> [I::V; 2] {
+        [geometry.lit.a.t, geometry.lit.b.t]
+    }
+}
+
+/// A density of a lane group.
+#[derive(Clone, Copy)]
+pub(crate) struct SetUp<I: Isa, D> {
+    pub(crate) density: D,
+    /// Which lanes are rays with a medium.
+    pub(crate) valid: I::Mask,
+    /// Which lanes can be sampled.
+    pub(crate) lit: I::Mask,
+}
+
+impl<I: Isa, D: Density<I>> SetUp<I, D> {
+    #[cfg_attr(optimized, inline(always))]
+    pub(crate) fn new(isa: I, ray: &RayLanes<I>, geometry: Geometry<'_, I>, medium: &MediumLanes<I>) -> Self {
+        let (density, lit) = D::new(isa, ray, geometry, medium);
+        Self { density, valid: geometry.foot.valid & medium.valid, lit }
     }
 }
 
 /// A point that was drawn.
+#[derive(Clone, Copy)]
 pub(crate) struct Drawn<I: Isa> {
     pub(crate) point: Point<I>,
     pub(crate) pdf: Pdf<I>,
@@ -42,6 +65,7 @@ pub(crate) struct Drawn<I: Isa> {
 }
 
 /// A density at a point.
+#[derive(Clone, Copy)]
 pub(crate) struct Pdf<I: Isa> {
     /// Over distance \[1/m\].
     pub(crate) over_t: I::V,
@@ -50,11 +74,12 @@ pub(crate) struct Pdf<I: Isa> {
 }
 
 impl<I: Isa> Pdf<I> {
-    /// From a density over the angle at the emitter, `dtheta = h dt / r^2`.
+    /// From a density `p / mass` over the angle at the emitter, `dtheta = h dt / r^2`.
     #[cfg_attr(optimized, inline(always))]
-    pub(crate) fn over_angle(p_theta: I::V, geometry: &Geometry<I>, point: &Point<I>) -> Self {
-        let times_r2 = p_theta * geometry.h;
-        Self { over_t: times_r2 / geometry.r_squared(point.t_prime), times_r2 }
+    pub(crate) fn over_angle(p: I::V, mass: I::V, geometry: Geometry<'_, I>, point: &Point<I>) -> Self {
+        let p_h = p * geometry.foot.h;
+        // In this order no part of it leaves f32 before the whole does.
+        Self { over_t: (p_h / geometry.foot.r_squared(point.t_prime)) / mass, times_r2: p_h / mass }
     }
 
     /// From a density over distance.

@@ -1,12 +1,20 @@
-//! A ray and an emitter as the kernels see them: distances from the foot of the perpendicular, clipped to the lit side.
+//! A ray and an emitter as the densities see them: distances from the foot of the perpendicular, clipped to the lit side.
 //!
-//! All of it rests on three numbers computed in double precision and rounded once: `t_h` (where the ray passes the
-//! emitter), `h` (at what distance) and `t' = t - t_h`. With them nothing below cancels, however far the emitter, short
-//! the interval or small `h`: angles are taken between two points of the ray, distances from one of its ends.
+//! All of it rests on three numbers: `t_h` (where the ray passes the emitter), `h` (at what distance) and `t' = t - t_h`.
+//! With them nothing below cancels, however far the emitter, short the interval or small `h`: angles are taken between two
+//! points of the ray, distances from one of its ends or from the foot.
+//!
+//! They are found in f32, with what roundings leave where that matters (`single`), and in f64 (`double`) for the rays for
+//! which this is not enough.
+
+mod double;
+mod single;
+
+pub(crate) use single::{Clipped, clip, find_foot, unknown};
 
 use crate::scene::{FARTHEST, UNIT_TOLERANCE};
-use crate::simd::math::{angle_of, reciprocal, reciprocal_near};
-use crate::simd::{Double, Isa, Lanes, Number};
+use crate::simd::math::{angle_of, reciprocal};
+use crate::simd::{Double, Isa, Lanes, Number, none};
 
 /// The rays of a lane group.
 pub(crate) struct RayLanes<I: Isa> {
@@ -16,13 +24,25 @@ pub(crate) struct RayLanes<I: Isa> {
     pub(crate) t_max: I::V,
 }
 
+impl<I: Isa> RayLanes<I> {
+    /// Where the ray ends \[m\]: no farther than [`FARTHEST`]; NaN stays NaN.
+    #[cfg_attr(optimized, inline(always))]
+    pub(crate) fn end(&self, isa: I) -> I::V {
+        isa.splat(FARTHEST).min(self.t_max)
+    }
+}
+
 /// Their emitters.
 #[derive(Clone, Copy)]
 pub(crate) struct EmitterLanes<I: Isa> {
-    position: [I::Double; 3],
-    normal: [I::Double; 3],
+    position: [I::V; 3],
+    normal: [I::V; 3],
     has_normal: I::Mask,
     valid: I::Mask,
+    /// Which lanes have a normal of length 1, or none, and are not very far away.
+    plain: I::Mask,
+    /// `n.(x - y)` in the emitter's plane: 0, but without a normal it is larger than anything.
+    in_plane: I::V,
 }
 
 impl<I: Isa> EmitterLanes<I> {
@@ -31,24 +51,57 @@ impl<I: Isa> EmitterLanes<I> {
     pub(crate) fn new(isa: I, position: [I::V; 3], normal: [I::V; 3]) -> Self {
         let size = normal[0].abs() + normal[1].abs() + normal[2].abs();
         let none = size.eq(isa.splat(0.0));
-        let farthest = largest::<I>(position).le(isa.splat(FARTHEST));
-        let (position, normal) = (widen::<I>(position), widen::<I>(normal));
-        let excess = I::V::narrow(dot(normal, normal) - isa.splat_double(1.0));
-        let valid = farthest & (excess.abs().le(isa.splat(TOLERANCE)) | none);
-        Self { position, normal, has_normal: !none, valid }
+        let far = largest::<I>(position);
+        let excess = dot(normal, normal) - isa.splat(1.0);
+        let valid = far.le(isa.splat(FARTHEST)) & (excess.abs().le(isa.splat(TOLERANCE)) | none);
+        let plain = far.le(isa.splat(PLAIN)) & (excess.abs().le(isa.splat(single::UNIT)) | none);
+        let in_plane = I::V::only(none, isa.splat(single::NO_NORMAL));
+        Self { position, normal, has_normal: !none, valid, plain, in_plane }
     }
 }
 
 /// By how much the square of a unit vector's length may differ from 1.
 const TOLERANCE: f32 = 2.001 * UNIT_TOLERANCE;
 
-/// Sine of the least angle between a ray and the emitter's plane of which it is known where they meet.
-const FLATTEST: f32 = 1e-30;
+/// Coordinates up to this leave room for products of them in f32 \[m\].
+const PLAIN: f32 = 1e15;
 
 /// For how much of the variates beyond those of half of the angle a point is still measured from the end that is nearer to
 /// the foot of the perpendicular. From the other end the way to it is long, and what it leaves to the near end would have
 /// the error of all of it.
 pub(crate) const BIAS: f32 = 0.05;
+
+/// The part of the ray that the emitter faces.
+#[derive(Clone, Copy)]
+pub(crate) struct Lit<I: Isa> {
+    /// Its start.
+    pub(crate) a: End<I>,
+    /// Its end.
+    pub(crate) b: End<I>,
+    /// `t_b - t_a` \[m\]; 0 where nothing is lit.
+    pub(crate) length: I::V,
+}
+
+/// The emitter's cosine N along the ray, as `m = n.(x - y) = N r` \[m\].
+#[derive(Clone, Copy)]
+pub(crate) struct Cosine<I: Isa> {
+    /// `m` at the ends of the lit interval, whatever it is without a normal: exactly 0 where the interval was clipped.
+    pub(crate) m_a: I::V,
+    pub(crate) m_b: I::V,
+    /// `beta = n.d`, by which `m` grows along the ray.
+    pub(crate) beta: I::V,
+    /// Which lanes have an emitter with a normal.
+    pub(crate) has_normal: I::Mask,
+}
+
+impl<I: Isa> Cosine<I> {
+    /// That of emitters without a normal.
+    #[cfg_attr(optimized, inline(always))]
+    pub(crate) fn none(isa: I) -> Self {
+        let zero = isa.splat(0.0);
+        Self { m_a: zero, m_b: zero, beta: zero, has_normal: none(isa) }
+    }
+}
 
 /// One end of the lit interval.
 #[derive(Clone, Copy)]
@@ -57,14 +110,51 @@ pub(crate) struct End<I: Isa> {
     pub(crate) t: I::V,
     /// What the rounding left: 0 where the ray itself ends.
     t_low: I::V,
-    /// `t - t_h` \[m\].
-    pub(crate) t_prime: I::V,
+}
+
+/// The foot of the perpendicular from the emitter to the ray's line, and where the lit interval lies from there.
+#[derive(Clone, Copy)]
+pub(crate) struct Foot<I: Isa> {
+    /// Distance from the emitter \[m\], its square, and what the rounding of that left.
+    pub(crate) h: I::V,
+    pub(crate) h_squared: I::V,
+    h_squared_low: I::V,
+    /// A number near the distance along the ray \[m\], and what it lacks.
+    t_h: I::V,
+    t_h_low: I::V,
+    /// `t' = t - t_h` at the ends of the lit interval \[m\].
+    pub(crate) a: I::V,
+    pub(crate) b: I::V,
+    /// `m` at the foot \[m\]: with `beta`, `m = alpha_h + beta t'`, (21).
+    pub(crate) alpha_h: I::V,
+    /// Which lanes hold a ray and an emitter at all; in f32 which of them need no f64.
+    pub(crate) valid: I::Mask,
+}
+
+/// The geometry of a lane group.
+#[derive(Clone, Copy)]
+pub(crate) struct Geometry<'g, I: Isa> {
+    pub(crate) lit: &'g Lit<I>,
+    pub(crate) cosine: &'g Cosine<I>,
+    pub(crate) foot: &'g Foot<I>,
+}
+
+/// The ends of the lit interval as the emitter sees them: at `a` and at `b`.
+#[derive(Clone, Copy)]
+pub(crate) struct Ends<I: Isa> {
     /// Distance to the emitter \[m\].
-    pub(crate) r: I::V,
-    /// `n.(x - y) = N r` there \[m\], whatever it is without a normal: exactly 0 where the interval was clipped.
-    pub(crate) m: I::V,
+    pub(crate) r: [I::V; 2],
     /// The cosine `N`; 1 without a normal.
-    pub(crate) n: I::V,
+    pub(crate) n: [I::V; 2],
+}
+
+/// A direction from the emitter within the lit interval.
+#[derive(Clone, Copy)]
+pub(crate) struct Angle<I: Isa> {
+    /// Which lanes measure it from the direction of `a`, the others from that of `b`.
+    pub(crate) from_a: I::Mask,
+    /// `tan(delta/2) <= 1` of the angle `delta` from there.
+    pub(crate) tan_half: I::V,
 }
 
 /// A point of the ray.
@@ -74,173 +164,100 @@ pub(crate) struct Point<I: Isa> {
     pub(crate) t: I::V,
     /// `t - t_h` \[m\], exact to a few ulp also where `t` cannot resolve it.
     pub(crate) t_prime: I::V,
-    /// The same where it is known better, as at a given `t`.
-    exact_t_prime: I::Double,
+    /// What is known of it beyond its rounding.
+    t_prime_low: I::V,
     /// Distance to the emitter \[m\].
     pub(crate) r: I::V,
-    /// `n.(x - y) = N r` \[m\], whatever it is without a normal; not negative where the point is lit.
+    /// `n.(x - y) = N r` \[m\], whatever it is without a normal; not negative.
     m: I::V,
 }
 
-/// The geometry of a lane group.
-pub(crate) struct Geometry<I: Isa> {
-    /// Distance from the emitter to the ray's line \[m\].
-    pub(crate) h: I::V,
-    /// Its square, rounded once.
-    h_squared: I::V,
-    /// `alpha = n.u`: with `beta`, the cosine is `N = alpha cos theta + beta sin theta`, (21).
-    pub(crate) alpha: I::V,
-    /// `beta = n.d`.
-    pub(crate) beta: I::V,
-    /// Start of the lit interval.
-    pub(crate) a: End<I>,
-    /// Its end.
-    pub(crate) b: End<I>,
-    /// `t_b - t_a` \[m\].
-    pub(crate) length: I::V,
-    /// Ends of the ray itself \[m\].
-    pub(crate) t_min: I::V,
-    pub(crate) t_max: I::V,
-    /// `h^2` in f64 where it is not below the square of `least_h`.
-    foot_squared: I::Double,
-    /// The least `h` that f64 tells from none at this distance \[m\].
-    least_h: I::V,
-    t_h: I::Double,
-    t_prime_min: I::Double,
-    /// `n.(x - y) = alpha_h + beta_exact t'`.
-    alpha_h: I::Double,
-    beta_exact: I::Double,
-    /// Which lanes have an emitter with a normal.
-    pub(crate) has_normal: I::Mask,
-    /// Which lanes have a part that the emitter faces.
-    pub(crate) faced: I::Mask,
-    /// Which of these have an interval whose angle and length f32 can tell from none.
-    pub(crate) lit: I::Mask,
-    /// Which lanes hold a ray and an emitter at all.
-    pub(crate) valid: I::Mask,
+/// The records of a lane group by themselves.
+pub(crate) type Located<I> = (Lit<I>, Cosine<I>, Foot<I>);
+
+/// The geometry of a lane group in f64.
+#[cfg_attr(optimized, inline(always))]
+pub(crate) fn in_f64<I: Isa>(isa: I, ray: &RayLanes<I>, emitter: &EmitterLanes<I>) -> Located<I> {
+    double::locate(isa, ray, emitter)
 }
 
-impl<I: Isa> Geometry<I> {
+/// `yes` in `hard` lanes, `no` in the others.
+#[cfg_attr(optimized, inline(always))]
+pub(crate) fn pick<I: Isa>(hard: I::Mask, yes: &Located<I>, no: Geometry<'_, I>) -> Located<I> {
+    let (lit, cosine, foot) = yes;
+    let end = |yes: &End<I>, no: &End<I>| End {
+        t: I::V::select(hard, yes.t, no.t),
+        t_low: I::V::select(hard, yes.t_low, no.t_low),
+    };
+    (
+        Lit {
+            a: end(&lit.a, &no.lit.a),
+            b: end(&lit.b, &no.lit.b),
+            length: I::V::select(hard, lit.length, no.lit.length),
+        },
+        Cosine {
+            m_a: I::V::select(hard, cosine.m_a, no.cosine.m_a),
+            m_b: I::V::select(hard, cosine.m_b, no.cosine.m_b),
+            beta: I::V::select(hard, cosine.beta, no.cosine.beta),
+            has_normal: cosine.has_normal,
+        },
+        Foot {
+            h: I::V::select(hard, foot.h, no.foot.h),
+            h_squared: I::V::select(hard, foot.h_squared, no.foot.h_squared),
+            h_squared_low: I::V::select(hard, foot.h_squared_low, no.foot.h_squared_low),
+            t_h: I::V::select(hard, foot.t_h, no.foot.t_h),
+            t_h_low: I::V::select(hard, foot.t_h_low, no.foot.t_h_low),
+            a: I::V::select(hard, foot.a, no.foot.a),
+            b: I::V::select(hard, foot.b, no.foot.b),
+            alpha_h: I::V::select(hard, foot.alpha_h, no.foot.alpha_h),
+            valid: (hard & foot.valid) | (!hard & no.foot.valid),
+        },
+    )
+}
+
+impl<I: Isa> Geometry<'_, I> {
+    /// Which lanes have a part that the emitter faces.
     #[cfg_attr(optimized, inline(always))]
-    pub(crate) fn new(isa: I, ray: &RayLanes<I>, emitter: &EmitterLanes<I>) -> Self {
-        let c = |x| isa.splat(x);
-        let d = widen::<I>(ray.direction);
-        let o = widen::<I>(ray.origin);
-        let (y, n) = (emitter.position, emitter.normal);
-        let e = [y[0] - o[0], y[1] - o[1], y[2] - o[2]];
+    pub(crate) fn faced(&self, isa: I) -> I::Mask {
+        isa.splat(1e-18).lt(self.lit.length)
+    }
 
-        // 1/|d| by its series about |d| = 1: distances are in metres also where d is not quite a unit vector.
-        let q = d[2].mul_add(d[2], d[1].mul_add(d[1], d[0].mul_add(d[0], isa.splat_double(-1.0))));
-        let unit = q
-            .mul_add(isa.splat_double(0.273_437_5), isa.splat_double(-0.3125))
-            .mul_add(q, isa.splat_double(0.375))
-            .mul_add(q * q, q.mul_add(isa.splat_double(-0.5), isa.splat_double(1.0)));
-        let t_h = dot(e, d) * unit;
-        let beta_exact = dot(n, d) * unit;
-        let along = t_h * unit;
-        let foot = [along.mul_add(d[0], -e[0]), along.mul_add(d[1], -e[1]), along.mul_add(d[2], -e[2])];
-        let alpha_h = dot(n, foot);
+    /// Which of these have an interval whose angle and length f32 can tell from none: it subtends more than 1e-30 rad, and is
+    /// longer than 1e-36 of `r^2`.
+    #[cfg_attr(optimized, inline(always))]
+    pub(crate) fn lit(&self, isa: I) -> I::Mask {
+        // Without a root: (|t'| + h)/1.42 is r or up to 1.42 times less.
+        let h = self.foot.h;
+        let rr = (self.foot.a.abs() + h) * (self.foot.b.abs() + h) * isa.splat(0.5);
+        let wide = (rr * isa.splat(1e-30)).lt(h * self.lit.length) & (rr * isa.splat(1e-36)).lt(self.lit.length);
+        self.faced(isa) & wide
+    }
 
-        let t_max = ray.t_max.min(c(FARTHEST));
-        let t_prime_min = ray.t_min.widen() - t_h;
-        let t_prime_max = t_max.widen() - t_h;
-        let (ta, tb) = (I::V::narrow(t_prime_min), I::V::narrow(t_prime_max));
-        let least_h = (ta.abs().max((ray.t_min - ta).abs()) * c(1e-9)).max(c(1e-18));
-        let foot_squared = dot(foot, foot);
-        let size_squared = I::V::narrow(foot_squared);
-        let h_squared = (least_h * least_h).max(size_squared);
-        let h = h_squared.sqrt();
-        let length = t_max - ray.t_min;
+    /// The same, given the angle that the lit interval subtends.
+    #[cfg_attr(optimized, inline(always))]
+    pub(crate) fn lit_by_angle(&self, isa: I, subtended: I::V) -> I::Mask {
+        // Of an interval that is short against r, it is r_a r_b.
+        let rr = self.dot_of_ends().abs();
+        self.faced(isa) & isa.splat(1e-30).lt(subtended) & (rr * isa.splat(1e-36)).lt(self.lit.length)
+    }
 
-        // The sign of m = n.(x - y) at the ends decides what is lit.
-        let has_normal = emitter.has_normal;
-        let m_a = I::V::narrow(beta_exact.mul_add(t_prime_min, alpha_h));
-        let m_b = I::V::narrow(beta_exact.mul_add(t_prime_max, alpha_h));
-        let dark_a = has_normal & m_a.le(c(0.0));
-        let dark_b = has_normal & m_b.le(c(0.0));
-        let beta = I::V::narrow(beta_exact);
-        // A ray so flat against the emitter's plane is not cut there: with one end it is dark as a whole.
-        let flat = beta.abs().lt(c(FLATTEST));
-        let both = (dark_a & dark_b) | (flat & (dark_a | dark_b));
-        let (clip_a, clip_b) = (dark_a & !dark_b, dark_b & !dark_a);
-
-        // Where N = 0: a Newton step after the division, as what is lit may be as short as what it leaves.
-        let inv_beta = c(1.0) / beta;
-        let near = inv_beta.widen();
-        let once = -(alpha_h * reciprocal_near(isa, beta_exact, near));
-        let t_prime_n = once - beta_exact.mul_add(once, alpha_h) * near;
-        let tn = I::V::narrow(t_prime_n).max(ta).min(tb);
-        let lit_length = (m_a.max(m_b) * inv_beta.abs()).min(length);
-        let length = I::V::select(clip_a | clip_b, lit_length, length);
-        let exact_t_n = t_h + t_prime_n;
-        let t_n = I::V::narrow(exact_t_n).max(ray.t_min).min(t_max);
-        let t_n_low = I::V::narrow(exact_t_n - t_n.widen());
-
-        let (ta, tb) = (I::V::select(clip_a, tn, ta), I::V::select(clip_b, tn, tb));
-        let (ra, rb) = (ta.mul_add(ta, h_squared).sqrt(), tb.mul_add(tb, h_squared).sqrt());
-        let (m_a, m_b) = (m_a.max(c(0.0)), m_b.max(c(0.0)));
-        let a = End {
-            t: I::V::select(clip_a, t_n, ray.t_min),
-            t_low: I::V::select(clip_a, t_n_low, c(0.0)),
-            t_prime: ta,
-            r: ra,
-            m: m_a,
-            n: I::V::select(has_normal, m_a / ra, c(1.0)),
-        };
-        let b = End {
-            t: I::V::select(clip_b, t_n, t_max),
-            t_low: I::V::select(clip_b, t_n_low, c(0.0)),
-            t_prime: tb,
-            r: rb,
-            m: m_b,
-            n: I::V::select(has_normal, m_b / rb, c(1.0)),
-        };
-
-        // Below these f32 has no more to say about an interval: it subtends 1e-30 rad, or is 1e-36 of r^2. Without a root:
-        // (|t'| + h)/1.42 is r or up to 1.42 times less.
-        let faced = c(1e-18).lt(length) & !both;
-        let rr = (ta.abs() + h) * (tb.abs() + h) * c(0.5);
-        let wide = (rr * c(1e-30)).lt(h * length) & (rr * c(1e-36)).lt(length);
-        let valid = emitter.valid
-            & I::V::narrow(q).abs().le(c(TOLERANCE))
-            & largest::<I>(ray.origin).le(c(FARTHEST))
-            & c(0.0).le(ray.t_min)
-            & ray.t_min.le(c(FARTHEST))
-            & ray.t_min.le(ray.t_max)
-            // No number where one of the coordinates is none.
-            & size_squared.le(c(16.0 * FARTHEST * FARTHEST));
-
-        Self {
-            h,
-            h_squared,
-            alpha: I::V::narrow(alpha_h) / h,
-            beta,
-            a,
-            b,
-            length,
-            t_min: ray.t_min,
-            t_max,
-            foot_squared,
-            least_h,
-            t_h,
-            t_prime_min,
-            alpha_h,
-            beta_exact,
-            has_normal,
-            faced,
-            lit: faced & wide,
-            valid,
-        }
+    /// The ends as the emitter sees them.
+    #[cfg_attr(optimized, inline(always))]
+    pub(crate) fn ends(&self, isa: I) -> Ends<I> {
+        let r = [self.foot.r(self.foot.a), self.foot.r(self.foot.b)];
+        let cosine = |m: I::V, r: I::V| I::V::select(self.cosine.has_normal, m / r, isa.splat(1.0));
+        Ends { r, n: [cosine(self.cosine.m_a, r[0]), cosine(self.cosine.m_b, r[1])] }
     }
 
     /// Which lanes have more than 1e-25 of the light that an emitter faced squarely would give: below that N has no more
     /// to say in f32.
     #[cfg_attr(optimized, inline(always))]
-    pub(crate) fn bright(&self, isa: I) -> I::Mask {
+    pub(crate) fn bright(&self, isa: I, ends: &Ends<I>) -> I::Mask {
         let least = isa.splat(1e-25);
-        let rr = self.a.r * self.b.r;
-        let light = (self.h * self.length) * (self.a.n + self.b.n);
-        (self.wide(isa) & (self.h * least).lt(self.greatest_cosine_h())) | (rr * least).lt(light)
+        let h = self.foot.h;
+        let rr = ends.r[0] * ends.r[1];
+        let light = (h * self.lit.length) * (ends.n[0] + ends.n[1]);
+        (self.wide(isa) & (h * least).lt(self.greatest_cosine_h())) | (rr * least).lt(light)
     }
 
     /// Which lanes have an interval that subtends more than a right angle.
@@ -252,14 +269,14 @@ impl<I: Isa> Geometry<I> {
     /// `h (|alpha| + |beta|)` \[m\]: no cosine is larger, nor the largest one less than two thirds of it.
     #[cfg_attr(optimized, inline(always))]
     fn greatest_cosine_h(&self) -> I::V {
-        self.beta.abs().mul_add(self.h, I::V::narrow(self.alpha_h).abs())
+        self.cosine.beta.abs().mul_add(self.foot.h, self.foot.alpha_h.abs())
     }
 
     /// Which ends have less than `share` of `|alpha| + |beta|`, the size of the cosine, or where the interval subtends less
     /// than a right angle, of the sum of those at the ends.
     #[cfg_attr(optimized, inline(always))]
-    pub(crate) fn dark_ends(&self, isa: I, share: f32) -> [I::Mask; 2] {
-        let (n_a, n_b) = (self.a.n * self.h, self.b.n * self.h);
+    pub(crate) fn dark_ends(&self, isa: I, ends: &Ends<I>, share: f32) -> [I::Mask; 2] {
+        let (n_a, n_b) = (ends.n[0] * self.foot.h, ends.n[1] * self.foot.h);
         let least = I::V::select(self.wide(isa), self.greatest_cosine_h(), n_a + n_b) * isa.splat(share);
         [n_a.lt(least), n_b.lt(least)]
     }
@@ -267,129 +284,170 @@ impl<I: Isa> Geometry<I> {
     /// The angle `Theta` that the lit interval subtends at the emitter, in `(0, pi]` \[rad\].
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn subtended(&self, isa: I) -> I::V {
-        angle_of(isa, self.h * self.length, self.dot_of_ends())
+        angle_of(isa, self.foot.h * self.lit.length, self.dot_of_ends())
     }
 
     /// `BIAS` where `a` is the end nearer to the foot of the perpendicular, else minus that.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn bias_to_a(&self, isa: I) -> I::V {
-        let near_a = self.a.t_prime.abs().lt(self.b.t_prime.abs());
+        let near_a = self.foot.a.abs().lt(self.foot.b.abs());
         I::V::select(near_a, isa.splat(BIAS), isa.splat(-BIAS))
     }
 
     /// `r_a r_b cos Theta` \[m^2\].
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn dot_of_ends(&self) -> I::V {
-        self.a.t_prime.mul_add(self.b.t_prime, self.h_squared)
+        self.foot.a.mul_add(self.foot.b, self.foot.h_squared)
     }
 
-    /// `S = alpha sin theta - beta cos theta` at an end: `dS/dtheta = N`.
+    /// `S = alpha sin theta - beta cos theta` at the ends: `dS/dtheta = N`.
     #[cfg_attr(optimized, inline(always))]
-    pub(crate) fn antiderivative(&self, end: &End<I>) -> I::V {
-        self.alpha.mul_add(end.t_prime, -(self.beta * self.h)) / end.r
+    pub(crate) fn antiderivatives(&self, ends: &Ends<I>) -> [I::V; 2] {
+        let (alpha, beta_h) = (self.foot.alpha_h / self.foot.h, self.cosine.beta * self.foot.h);
+        [alpha.mul_add(self.foot.a, -beta_h) / ends.r[0], alpha.mul_add(self.foot.b, -beta_h) / ends.r[1]]
     }
 
-    /// The point at the angle `delta` from an end (`a` where `from_a`), given `tau = tan(delta/2) <= 1`.
+    /// The point at an angle `delta` from an end, with `tau = tan(delta/2)`.
     ///
     /// With `t'_e` counted towards the interval, its distance from the end is `2 tau r_e^2 / D` and its `t'` is
     /// `h (t'_e (1 - tau^2) + 2 tau h) / D`, where `D = h (1 - tau^2) - 2 tau t'_e`.
     #[cfg_attr(optimized, inline(always))]
-    pub(crate) fn point_at_angle(&self, isa: I, from_a: I::Mask, tau: I::V) -> Point<I> {
+    pub(crate) fn point_at_angle(&self, isa: I, angle: &Angle<I>) -> Point<I> {
         let c = |x| isa.splat(x);
-        let toward = |a: I::V, b: I::V| I::V::select(from_a, a, -b);
-        let te = toward(self.a.t_prime, self.b.t_prime);
-        let re_squared = te.mul_add(te, self.h_squared);
-        let two_tau = tau + tau;
-        let scale = c(1.0) / (-tau).mul_add(self.h.mul_add(tau, te + te), self.h);
-        let offset = (two_tau * (re_squared * scale)).min(self.length);
+        let Angle { from_a, tan_half: tau } = *angle;
+        let (h, h_squared) = (self.foot.h, self.foot.h_squared);
+        let of_end = |a: I::V, b: I::V| I::V::select(from_a, a, b);
+        let te = of_end(self.foot.a, -self.foot.b);
+        let re_squared = te.mul_add(te, h_squared);
+        let scale = c(1.0) / (-tau).mul_add(h.mul_add(tau, te + te), h);
+        let offset = ((tau + tau) * (re_squared * scale)).min(self.lit.length);
+        let by_angle = (h * scale) * tau.mul_add((-te).mul_add(tau, h + h), te);
         // Not far from the end it is known better by that.
-        let by_end = te + offset;
-        let by_angle = (self.h * scale) * tau.mul_add((-te).mul_add(tau, self.h + self.h), te);
-        let t_prime = I::V::select((offset + offset).lt(te.abs()), by_end, by_angle);
-        let t_prime = toward(t_prime, t_prime).max(self.a.t_prime).min(self.b.t_prime);
+        let t_prime = I::V::select((offset + offset).lt(te.abs()), te + offset, by_angle);
+        // t from the end or from the foot, whichever is nearer.
+        let near_end = offset.lt(t_prime.abs());
+        let way = I::V::select(near_end, offset, t_prime);
+        let base = I::V::select(near_end, of_end(self.lit.a.t, self.lit.b.t), self.foot.t_h);
+        let low = I::V::select(near_end, of_end(self.lit.a.t_low, self.lit.b.t_low), self.foot.t_h_low);
+        let t = self.within(base + (of_end(way, -way) + low));
+        let t_prime = of_end(t_prime, -t_prime);
 
-        let rest = self.rest(isa, offset, t_prime, I::V::select(from_a, self.b.t_prime, self.a.t_prime));
-        let (from_start, to_end) = (I::V::select(from_a, offset, rest), I::V::select(from_a, rest, offset));
-        self.point_between(isa, from_start, to_end, t_prime)
+        let rest = self.rest(isa, offset, t_prime, of_end(self.foot.b, self.foot.a));
+        let m = self.m_between(isa, of_end(offset, rest), of_end(rest, offset));
+        Point { t, t_prime, t_prime_low: c(0.0), r: self.foot.r(t_prime), m }
     }
 
     /// The point at these distances from the ends and from the foot of the perpendicular.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn point_between(&self, isa: I, from_a: I::V, to_b: I::V, t_prime: I::V) -> Point<I> {
-        // m from the end where N is smaller: both terms are positive.
-        let rising = isa.splat(0.0).le(self.beta);
-        let m_end = I::V::select(rising, self.a.m, self.b.m);
-        let m = self.beta.abs().mul_add(I::V::select(rising, from_a, to_b), m_end);
+        let m = self.m_between(isa, from_a, to_b);
         let t = self.distance(t_prime, from_a, to_b);
-        Point { t, t_prime, exact_t_prime: t_prime.widen(), r: self.r(t_prime), m }
+        Point { t, t_prime, t_prime_low: isa.splat(0.0), r: self.foot.r(t_prime), m }
+    }
+
+    /// `m` from the end where N is smaller: both terms are positive.
+    #[cfg_attr(optimized, inline(always))]
+    fn m_between(&self, isa: I, from_a: I::V, to_b: I::V) -> I::V {
+        let rising = isa.splat(0.0).le(self.cosine.beta);
+        let m_end = I::V::select(rising, self.cosine.m_a, self.cosine.m_b);
+        self.cosine.beta.abs().mul_add(I::V::select(rising, from_a, to_b), m_end)
     }
 
     /// The same with the `t'` and the `r` of what was rounded to `t`, where `t` is smaller than about `r` and so resolves
     /// it: they are exact then.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn as_rounded(&self, point: Point<I>, about_r: I::V) -> Point<I> {
-        let exact = point.t.widen() - self.t_h;
-        let t_prime = I::V::select(point.t.lt(about_r), I::V::narrow(exact), point.t_prime);
-        Point { t_prime, exact_t_prime: t_prime.widen(), r: self.r(t_prime), ..point }
+        let t_prime = I::V::select(point.t.lt(about_r), self.foot.t_prime(point.t)[0], point.t_prime);
+        Point { t_prime, r: self.foot.r(t_prime), ..point }
     }
 
     /// The point of the ray at the given distance, which may lie outside the lit interval.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn point_at_distance(&self, isa: I, t: I::V) -> Point<I> {
-        self.point(isa, t, t.widen() - self.t_h)
+        let [t_prime, t_prime_low] = self.foot.t_prime(t);
+        let m = self.m_between(isa, self.way_from_a(isa, t), self.way_to_b(isa, t));
+        Point { t, t_prime, t_prime_low, r: self.foot.r(t_prime), m }
     }
 
-    /// The point at the distance `s` from `t_min`.
+    /// The point at the distance `s` from the start of the ray, no farther than its end.
     #[cfg_attr(optimized, inline(always))]
-    pub(crate) fn point_from_t_min(&self, isa: I, s: I::V) -> Point<I> {
-        self.point(isa, (self.t_min + s).min(self.t_max), self.t_prime_min + s.widen())
+    pub(crate) fn point_beyond(&self, isa: I, t_min: I::V, s: I::V, t_max: I::V) -> Point<I> {
+        let t = t_min.widen() + s.widen();
+        let exact = t - self.foot.exact_t_h();
+        let t_prime = I::V::narrow(exact);
+        let t_prime_low = I::V::narrow(exact - t_prime.widen());
+        let from_a = I::V::narrow((t - self.lit.a.t.widen()) - self.lit.a.t_low.widen()).max(isa.splat(0.0));
+        let to_b = I::V::narrow((self.lit.b.t.widen() - t) + self.lit.b.t_low.widen()).max(isa.splat(0.0));
+        let m = self.m_between(isa, from_a, to_b);
+        let t = (t_min + s).min(t_max);
+        Point { t, t_prime, t_prime_low, r: self.foot.r(t_prime), m }
+    }
+
+    /// The start of the lit interval, given `r` there.
+    #[cfg_attr(optimized, inline(always))]
+    pub(crate) fn start(&self, isa: I, r_a: I::V) -> Point<I> {
+        Point { t: self.lit.a.t, t_prime: self.foot.a, t_prime_low: isa.splat(0.0), r: r_a, m: self.cosine.m_a }
+    }
+
+    /// `X` and `r` \[m\] in f64 at the ends of the lit interval, given `r` there as rounded.
+    #[cfg_attr(optimized, inline(always))]
+    pub(crate) fn exact_ends(&self, isa: I, [r_a, r_b]: [I::V; 2]) -> [(I::Double, I::Double); 2] {
+        [self.exact_end(isa, &self.lit.a, r_a), self.exact_end(isa, &self.lit.b, r_b)]
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn point(&self, isa: I, t: I::V, exact_t_prime: I::Double) -> Point<I> {
-        let m = I::V::narrow(self.beta_exact.mul_add(exact_t_prime, self.alpha_h));
-        let t_prime = I::V::narrow(exact_t_prime);
-        Point { t, t_prime, exact_t_prime, r: self.r(t_prime), m: m.max(isa.splat(0.0)) }
+    fn exact_end(&self, isa: I, end: &End<I>, r: I::V) -> (I::Double, I::Double) {
+        let exact = (end.t.widen() + end.t_low.widen()) - self.foot.exact_t_h();
+        let t_prime = I::V::narrow(exact);
+        let t_prime_low = I::V::narrow(exact - t_prime.widen());
+        self.foot.exact_x_and_r(isa, &Point { t: end.t, t_prime, t_prime_low, r, m: isa.splat(0.0) })
     }
 
-    /// The start of the lit interval.
+    /// The distance of `t` from the start of the lit interval \[m\], 0 before it.
     #[cfg_attr(optimized, inline(always))]
-    pub(crate) fn start(&self) -> Point<I> {
-        let End { t, t_prime, r, m, .. } = self.a;
-        Point { t, t_prime, exact_t_prime: t_prime.widen(), r, m }
-    }
-
-    /// The distance of a point of the lit interval from its start \[m\].
-    #[cfg_attr(optimized, inline(always))]
-    pub(crate) fn way_from_a(&self, isa: I, point: &Point<I>) -> I::V {
-        ((point.t - self.a.t) - self.a.t_low).max(isa.splat(0.0))
+    pub(crate) fn way_from_a(&self, isa: I, t: I::V) -> I::V {
+        ((t - self.lit.a.t) - self.lit.a.t_low).max(isa.splat(0.0))
     }
 
     /// And from its end.
     #[cfg_attr(optimized, inline(always))]
-    pub(crate) fn way_to_b(&self, isa: I, point: &Point<I>) -> I::V {
-        ((self.b.t - point.t) + self.b.t_low).max(isa.splat(0.0))
+    pub(crate) fn way_to_b(&self, isa: I, t: I::V) -> I::V {
+        ((self.lit.b.t - t) + self.lit.b.t_low).max(isa.splat(0.0))
     }
 
     /// What is left of the interval beyond `offset` from one end: by the length, or by `t'` where that is smaller.
     #[cfg_attr(optimized, inline(always))]
     fn rest(&self, isa: I, offset: I::V, t_prime: I::V, far_t_prime: I::V) -> I::V {
-        let by_length = (self.length - offset).max(isa.splat(0.0));
+        let by_length = (self.lit.length - offset).max(isa.splat(0.0));
         let size = t_prime.abs().max(far_t_prime.abs());
-        I::V::select(self.length.lt(size), by_length, (t_prime - far_t_prime).abs())
+        I::V::select(self.lit.length.lt(size), by_length, (t_prime - far_t_prime).abs())
     }
 
     /// `t` from the nearest of the places that are known exactly: the ends, and `t_h`.
     #[cfg_attr(optimized, inline(always))]
     fn distance(&self, t_prime: I::V, from_a: I::V, to_b: I::V) -> I::V {
-        let by_a = self.a.t + (self.a.t_low + from_a);
-        let by_b = self.b.t + (self.b.t_low - to_b);
-        let by_end = I::V::select(to_b.lt(from_a), by_b, by_a);
-        let by_foot = I::V::narrow(self.t_h + t_prime.widen());
-        let t = I::V::select(t_prime.abs().lt(from_a.min(to_b)), by_foot, by_end);
-        t.max(self.a.t).min(self.b.t)
+        let at_b = to_b.lt(from_a);
+        let by_foot = t_prime.abs().lt(from_a.min(to_b));
+        let pick = |foot: I::V, a: I::V, b: I::V| I::V::select(by_foot, foot, I::V::select(at_b, b, a));
+        let base = pick(self.foot.t_h, self.lit.a.t, self.lit.b.t);
+        let low = pick(self.foot.t_h_low, self.lit.a.t_low, self.lit.b.t_low);
+        self.within(base + (low + pick(t_prime, from_a, -to_b)))
     }
 
+    /// `t`, or the nearer end of the lit interval.
+    #[cfg_attr(optimized, inline(always))]
+    fn within(&self, t: I::V) -> I::V {
+        t.max(self.lit.a.t).min(self.lit.b.t)
+    }
+
+    /// The cosine `N` at a point.
+    #[cfg_attr(optimized, inline(always))]
+    pub(crate) fn cosine(&self, isa: I, point: &Point<I>) -> I::V {
+        I::V::select(self.cosine.has_normal, point.m / point.r, isa.splat(1.0))
+    }
+}
+
+impl<I: Isa> Foot<I> {
     /// The distance to the emitter \[m\].
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn r(&self, t_prime: I::V) -> I::V {
@@ -402,47 +460,67 @@ impl<I: Isa> Geometry<I> {
         t_prime.mul_add(t_prime, self.h_squared)
     }
 
-    /// The cosine `N` at a point.
+    /// `t - t_h` \[m\], rounded, and what the rounding left.
     #[cfg_attr(optimized, inline(always))]
-    pub(crate) fn cosine(&self, isa: I, point: &Point<I>) -> I::V {
-        I::V::select(self.has_normal, point.m / point.r, isa.splat(1.0))
+    fn t_prime(&self, t: I::V) -> [I::V; 2] {
+        let [difference, left] = two_difference(t, self.t_h);
+        let low = left - self.t_h_low;
+        let t_prime = difference + low;
+        [t_prime, low - (t_prime - difference)]
+    }
+
+    /// `t_h` \[m\].
+    #[cfg_attr(optimized, inline(always))]
+    fn exact_t_h(&self) -> I::Double {
+        self.t_h.widen() + self.t_h_low.widen()
+    }
+
+    /// `h^2` \[m^2\].
+    #[cfg_attr(optimized, inline(always))]
+    fn exact_h_squared(&self) -> I::Double {
+        self.h_squared.widen() + self.h_squared_low.widen()
     }
 
     /// The length of the path from `t_min` over the point to the emitter \[m\].
     #[cfg_attr(optimized, inline(always))]
-    pub(crate) fn path(&self, isa: I, point: &Point<I>) -> I::Double {
-        let (_, r) = self.exact_r(isa, point);
-        (point.exact_t_prime - self.t_prime_min) + r
+    pub(crate) fn path(&self, isa: I, t_min: I::V, point: &Point<I>) -> I::Double {
+        (point.exact_t_prime() - (t_min.widen() - self.exact_t_h())) + self.exact_r(isa, point)
     }
 
     /// `X = t' + r` and `r` \[m\] in f64: `exp(-mu_t X)` is the transmittance but for a constant.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn exact_x_and_r(&self, isa: I, point: &Point<I>) -> (I::Double, I::Double) {
-        let (h_squared, r) = self.exact_r(isa, point);
-        let t_prime = point.exact_t_prime;
+        let (t_prime, r) = (point.exact_t_prime(), self.exact_r(isa, point));
         let long = r + t_prime.max(-t_prime);
-        let short = h_squared * reciprocal(isa, long);
+        let short = self.exact_h_squared() * reciprocal(isa, long);
         // r + t' where t' > 0, else h^2/(r - t'): there is no select of doubles.
-        let sign = I::V::select(isa.splat(0.0).lt(point.t_prime), isa.splat(1.0), isa.splat(0.0)).widen();
+        let sign = I::V::only(isa.splat(0.0).lt(point.t_prime), isa.splat(1.0)).widen();
         (sign.mul_add(long - short, short), r)
     }
 
-    /// `h^2`, and `r` by a Newton step of its root: the exponential multiplies an error of the optical depth by the depth.
+    /// `r` by a Newton step of its root: the exponential multiplies an error of the optical depth by the depth.
     #[cfg_attr(optimized, inline(always))]
-    fn exact_r(&self, isa: I, point: &Point<I>) -> (I::Double, I::Double) {
-        let (t_prime, r) = (point.exact_t_prime, point.r.widen());
-        let least = self.least_h.widen();
-        let h_squared = self.foot_squared.max(least * least);
-        let residual = I::V::narrow(t_prime.mul_add(t_prime, h_squared) - r * r);
+    fn exact_r(&self, isa: I, point: &Point<I>) -> I::Double {
+        let (t_prime, r) = (point.exact_t_prime(), point.r.widen());
+        let residual = I::V::narrow(t_prime.mul_add(t_prime, self.exact_h_squared()) - r * r);
         let step = residual * isa.splat(0.5) / point.r;
-        (h_squared, r + step.widen())
+        r + step.widen()
     }
 }
 
-// Spelt out, as all of the kernels: a closure that is not inlined is a call, and a call costs more than the kernel.
+impl<I: Isa> Point<I> {
+    #[cfg_attr(optimized, inline(always))]
+    fn exact_t_prime(&self) -> I::Double {
+        self.t_prime.widen() + self.t_prime_low.widen()
+    }
+}
+
+/// `a - b` rounded, and what the rounding left: together exact.
 #[cfg_attr(optimized, inline(always))]
-fn widen<I: Isa>([x, y, z]: [I::V; 3]) -> [I::Double; 3] {
-    [x.widen(), y.widen(), z.widen()]
+fn two_difference<V: Number>(a: V, b: V) -> [V; 2] {
+    let difference = a - b;
+    let of_b = a - difference;
+    [difference, (a - (difference + of_b)) + (of_b - b)]
 }
 
 /// The size of the largest component.
@@ -452,6 +530,12 @@ fn largest<I: Isa>([x, y, z]: [I::V; 3]) -> I::V {
 }
 
 #[cfg_attr(optimized, inline(always))]
-fn dot<D: Double>(a: [D; 3], b: [D; 3]) -> D {
+fn dot<N: Number>(a: [N; 3], b: [N; 3]) -> N {
     a[2].mul_add(b[2], a[1].mul_add(b[1], a[0] * b[0]))
+}
+
+// Spelt out, as all of the kernels: a closure that is not inlined is a call, and a call costs more than the kernel.
+#[cfg_attr(optimized, inline(always))]
+fn widen<I: Isa>([x, y, z]: [I::V; 3]) -> [I::Double; 3] {
+    [x.widen(), y.widen(), z.widen()]
 }

@@ -1,7 +1,7 @@
 //! What is integrated: `f = mu_s T rho N / r^2`, without the `1/r^2` that every density shares.
 
 use crate::expansion::Expanded;
-use crate::geometry::{Geometry, Point};
+use crate::geometry::{Geometry, Point, RayLanes};
 use crate::simd::math::exp;
 use crate::simd::{Isa, Lanes, Number};
 
@@ -52,23 +52,35 @@ impl<I: Isa> MediumLanes<I> {
 
 /// `mu_s T rho N` \[1/m\]: the integrand times `r^2`.
 #[cfg_attr(optimized, inline(always))]
-pub(crate) fn integrand_r2<I: Isa>(isa: I, g: &Geometry<I>, medium: &MediumLanes<I>, point: &Point<I>) -> I::V {
-    (medium.mu_s * transmittance(isa, g, medium, point)) * (phase(isa, g, medium.g, point) * g.cosine(isa, point))
+pub(crate) fn integrand_r2<I: Isa>(
+    isa: I,
+    ray: &RayLanes<I>,
+    g: Geometry<'_, I>,
+    medium: &MediumLanes<I>,
+    point: &Point<I>,
+) -> I::V {
+    (medium.mu_s * transmittance(isa, ray, g, medium, point)) * (phase(isa, g, medium.g, point) * g.cosine(isa, point))
 }
 
 /// From `t_min` over the point to the emitter, (3).
 #[cfg_attr(optimized, inline(always))]
-pub(crate) fn transmittance<I: Isa>(isa: I, g: &Geometry<I>, medium: &MediumLanes<I>, point: &Point<I>) -> I::V {
-    exp(isa, -(medium.mu_t.widen() * g.path(isa, point)))
+pub(crate) fn transmittance<I: Isa>(
+    isa: I,
+    ray: &RayLanes<I>,
+    g: Geometry<'_, I>,
+    medium: &MediumLanes<I>,
+    point: &Point<I>,
+) -> I::V {
+    exp(isa, -(medium.mu_t.widen() * g.foot.path(isa, ray.t_min, point)))
 }
 
 /// Henyey-Greenstein, (12): `(1 - g^2) / (4 pi (1 + g^2 + 2 g sin theta)^(3/2))` \[1/sr\].
 ///
 /// The denominator is `(1 - |g|)^2 + 2 |g| (1 +- sin theta)`, and `1 +- sin theta = (r +- t')/r` without cancellation.
 #[cfg_attr(optimized, inline(always))]
-fn phase<I: Isa>(isa: I, geometry: &Geometry<I>, g: I::V, point: &Point<I>) -> I::V {
+fn phase<I: Isa>(isa: I, geometry: Geometry<'_, I>, g: I::V, point: &Point<I>) -> I::V {
     let c = |x| isa.splat(x);
-    let (h, r) = (geometry.h, point.r);
+    let (h, r) = (geometry.foot.h, point.r);
     let size = g.abs();
     let forward = c(0.0).le(g * point.t_prime);
     let long = r + point.t_prime.abs();

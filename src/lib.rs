@@ -2,7 +2,7 @@
 //!
 //! # The road
 //!
-//! Every ray takes it once, a lane group at a time, and nothing flows back:
+//! Every ray takes it once, in blocks of a few lane groups that go from station to station, and nothing flows back:
 //!
 //! `scene -> geometry -> density -> inversion -> samples`
 //!
@@ -10,12 +10,12 @@
 //! |---|---|
 //! | `scene` | [`Ray`], [`Emitter`], [`Medium`]: one of each, validated |
 //! | `batch` | [`Rays`], [`Emitters`], [`Media`], [`Samples`]: borrowed columns of many |
-//! | `geometry` | `h`, `t_h`, the lit interval and its ends, without cancellation |
+//! | `geometry` | `h`, `t_h`, the lit interval and its ends, without cancellation: in f32, where that is not enough in f64 |
 //! | `expansion` | a factor of the integrand as a polynomial of the angle |
 //! | `strategy` | one file per density: its set-up, its inverse, its pdf |
 //! | `inversion` | Chebyshev's method in a bracket |
 //! | `integrand` | `mu_s T rho N` for the weight |
-//! | `road` | chunks, threads, and the kernel that strings the stations together |
+//! | `road` | threads, chunks, blocks, and the passes over a block |
 //! | `simd` | lane groups, one binding per instruction set |
 //! | [`oracle`] | all of it again in f64, written plainly, as the truth for tests |
 //!

@@ -55,7 +55,7 @@ impl Sampler {
             let few = inputs.slice(start..inputs.len().min(start + AT_ONCE));
             let (out, beyond) = OfSamples::split_at(rest, few.len() * few.per_ray);
             rest = beyond;
-            needed = needed + Counting::count(|counting| road::Sample::run(counting, self.strategy(), &few, out));
+            needed = needed + Counting::count(|counting| road::Sample::run(counting, self.method(), &few, out));
         }
         Ok(needed)
     }
@@ -94,10 +94,18 @@ struct Chains<const N: usize> {
 
 impl<const N: usize> Kernel for Chains<N> {
     type Output = usize;
-    type Home = Self;
 
-    #[cfg_attr(optimized, inline(always))]
     fn run<I: Isa>(self, isa: I) -> usize {
+        isa.vectorize::<Self, _>(
+            #[cfg_attr(optimized, inline(always))]
+            || self.chains(isa),
+        )
+    }
+}
+
+impl<const N: usize> Chains<N> {
+    #[cfg_attr(optimized, inline(always))]
+    fn chains<I: Isa>(&self, isa: I) -> usize {
         let (m, a, one) = (isa.splat(black_box(0.5)), isa.splat(black_box(0.75)), isa.splat(black_box(1.0)));
         let mut x = [isa.splat(black_box(1.25)); N];
         match self.limit {

@@ -1,10 +1,11 @@
 //! The road that every ray takes: columns -> geometry -> density -> inversion -> samples.
 //!
-//! A batch is cut into chunks that stay in a core's cache; a chunk goes through the kernel of one task and one density, a
-//! lane group at a time. No ray's arithmetic knows where in the batch it stands: chunks and threads change no bit.
+//! A batch is cut into chunks that stay in a core's cache, a chunk into blocks of a few lane groups; a block goes through the
+//! stations of one task and one density, one pass after the other. No ray's arithmetic knows where in the batch it stands:
+//! chunks, blocks and threads change no bit.
 
+mod blocks;
 mod evaluate;
-mod groups;
 mod pdf;
 mod radiance;
 mod sample;
@@ -16,12 +17,12 @@ pub(crate) use pdf::Pdf;
 pub(crate) use radiance::Radiance;
 pub(crate) use sample::Sample;
 
-use crate::Strategy;
 use crate::batch::{Counts, Inputs, Outputs, Pads, first_values};
 use crate::density::Kind;
 use crate::simd::{Backend, Isa, Kernel, MOST_LANES, Machine};
 use crate::strategy::product::knots;
 use crate::strategy::{equi_angular, point_normal, taylor_phase, taylor_transmittance, transmittance};
+use crate::{Precision, Strategy};
 use core::marker::PhantomData;
 use core::ops::Range;
 
@@ -36,22 +37,30 @@ const _: () = assert!(CHUNK + MOST_LANES * MANY < 1 << f32::MANTISSA_DIGITS);
 /// Where a task writes to.
 pub(crate) type Out<'a, T> = <<T as Task>::Out as Outputs>::At<'a>;
 
+/// What is sampled, and how exactly.
+#[derive(Clone, Copy)]
+pub(crate) struct Method {
+    pub(crate) strategy: Strategy,
+    pub(crate) precision: Precision,
+}
+
 /// What a call does with every ray.
 pub(crate) trait Task {
     /// The columns that it writes.
     type Out: Outputs;
 
-    /// Takes whole lane groups the whole way, by the kernel of `strategy`.
-    fn run(machine: impl Machine, strategy: Strategy, inputs: &Inputs<'_>, out: Out<'_, Self>) -> Counts;
+    /// Takes whole lane groups from station to station, by the passes of the method.
+    fn run(machine: impl Machine, method: Method, inputs: &Inputs<'_>, out: Out<'_, Self>) -> Counts;
 }
 
 /// A task for which every density has a kernel of its own.
 trait OfDensity: Task {
-    fn groups<I: Isa, D: Kind>(isa: I, inputs: &Inputs<'_>, out: Out<'_, Self>) -> Counts;
+    fn groups<I: Isa, D: Kind>(isa: I, precision: Precision, inputs: &Inputs<'_>, out: Out<'_, Self>) -> Counts;
 }
 
 /// The kernel of a task and a density.
 struct OnGroups<'i, 'o, T: Task, D> {
+    precision: Precision,
     inputs: &'i Inputs<'i>,
     out: Out<'o, T>,
     density: PhantomData<D>,
@@ -59,45 +68,46 @@ struct OnGroups<'i, 'o, T: Task, D> {
 
 impl<T: OfDensity, D: Kind> Kernel for OnGroups<'_, '_, T, D> {
     type Output = Counts;
-    type Home = D;
 
-    #[cfg_attr(optimized, inline(always))]
     fn run<I: Isa>(self, isa: I) -> Counts {
-        T::groups::<I, D>(isa, self.inputs, self.out)
+        T::groups::<I, D>(isa, self.precision, self.inputs, self.out)
     }
 }
 
 /// Chooses the kernel of a task.
-fn by_strategy<T: OfDensity>(
-    machine: impl Machine,
-    strategy: Strategy,
-    inputs: &Inputs<'_>,
-    out: Out<'_, T>,
-) -> Counts {
-    fn with<T: OfDensity, D: Kind>(machine: impl Machine, inputs: &Inputs<'_>, out: Out<'_, T>) -> Counts {
-        machine.run(OnGroups::<T, D> { inputs, out, density: PhantomData })
+fn by_strategy<T: OfDensity>(machine: impl Machine, method: Method, inputs: &Inputs<'_>, out: Out<'_, T>) -> Counts {
+    let Method { strategy, precision } = method;
+    fn with<T: OfDensity, D: Kind>(
+        machine: impl Machine,
+        precision: Precision,
+        inputs: &Inputs<'_>,
+        out: Out<'_, T>,
+    ) -> Counts {
+        machine.run(OnGroups::<T, D> { precision, inputs, out, density: PhantomData })
     }
     match strategy {
-        Strategy::Transmittance => with::<T, transmittance::Kind>(machine, inputs, out),
-        Strategy::EquiAngular => with::<T, equi_angular::Kind>(machine, inputs, out),
-        Strategy::PointNormal => with::<T, point_normal::Kind>(machine, inputs, out),
-        Strategy::TaylorTransmittance => with::<T, taylor_transmittance::OfTransmittance>(machine, inputs, out),
-        Strategy::TaylorPhase => with::<T, taylor_phase::OfPhase>(machine, inputs, out),
-        Strategy::Product3 => with::<T, knots::three::Kind>(machine, inputs, out),
-        Strategy::Product5 => with::<T, knots::five::Kind>(machine, inputs, out),
-        Strategy::Product9 => with::<T, knots::nine::Kind>(machine, inputs, out),
-        Strategy::Product17 => with::<T, knots::seventeen::Kind>(machine, inputs, out),
+        Strategy::Transmittance => with::<T, transmittance::Kind>(machine, precision, inputs, out),
+        Strategy::EquiAngular => with::<T, equi_angular::Kind>(machine, precision, inputs, out),
+        Strategy::PointNormal => with::<T, point_normal::Kind>(machine, precision, inputs, out),
+        Strategy::TaylorTransmittance => {
+            with::<T, taylor_transmittance::OfTransmittance>(machine, precision, inputs, out)
+        }
+        Strategy::TaylorPhase => with::<T, taylor_phase::OfPhase>(machine, precision, inputs, out),
+        Strategy::Product3 => with::<T, knots::three::Kind>(machine, precision, inputs, out),
+        Strategy::Product5 => with::<T, knots::five::Kind>(machine, precision, inputs, out),
+        Strategy::Product9 => with::<T, knots::nine::Kind>(machine, precision, inputs, out),
+        Strategy::Product17 => with::<T, knots::seventeen::Kind>(machine, precision, inputs, out),
     }
 }
 
 /// Takes a batch the whole way, its chunks spread over the threads.
-pub(crate) fn travel<T: Task>(backend: Backend, strategy: Strategy, inputs: &Inputs<'_>, out: Out<'_, T>) -> Counts {
+pub(crate) fn travel<T: Task>(backend: Backend, method: Method, inputs: &Inputs<'_>, out: Out<'_, T>) -> Counts {
     let Some((low, high)) = halves(inputs) else {
-        return by_groups::<T>(backend, strategy, inputs, out);
+        return by_groups::<T>(backend, method, inputs, out);
     };
     let (out_low, out_high) = T::Out::split_at(out, low.values());
-    let low = || travel::<T>(backend, strategy, &low, out_low);
-    let high = || travel::<T>(backend, strategy, &high, out_high);
+    let low = || travel::<T>(backend, method, &low, out_low);
+    let high = || travel::<T>(backend, method, &high, out_high);
     #[cfg(feature = "rayon")]
     let (low, high) = rayon::join(low, high);
     #[cfg(not(feature = "rayon"))]
@@ -124,66 +134,66 @@ fn halves<'a>(inputs: &Inputs<'a>) -> Option<(Inputs<'a>, Inputs<'a>)> {
     }
 }
 
-/// Takes a chunk the whole way. Kernels take whole lane groups and leave out the rays that do not fill one. These go one by
+/// Takes a chunk the whole way. Passes take whole lane groups and leave out the rays that do not fill one. These go one by
 /// one, or as a group with rays before them, or as a group with pads.
-fn by_groups<T: Task>(backend: Backend, strategy: Strategy, inputs: &Inputs<'_>, mut out: Out<'_, T>) -> Counts {
+fn by_groups<T: Task>(backend: Backend, method: Method, inputs: &Inputs<'_>, mut out: Out<'_, T>) -> Counts {
     let (lanes, rays, per_ray) = (backend.lanes(), inputs.len(), inputs.per_ray);
     match rays {
         0 => return Counts::default(),
-        1 => return one_ray::<T>(backend, strategy, inputs, out),
+        1 => return one_ray::<T>(backend, method, inputs, out),
         _ => {}
     }
     let few = rays % lanes;
     if few == 0 {
-        return T::run(backend, strategy, inputs, out);
+        return T::run(backend, method, inputs, out);
     }
     let whole = rays - few;
     let mut counts = Counts::default();
     if whole > 0 {
         let out = T::Out::part(&mut out, 0..rays * per_ray);
-        counts = T::run(backend, strategy, inputs, out);
+        counts = T::run(backend, method, inputs, out);
     }
     // Set-ups and draws of lane groups, which take about as long: one by one, and together.
     let by_themselves = few * (1 + per_ray.div_ceil(lanes)) < 1 + per_ray;
     let rest = if by_themselves {
         let of_ray = |i| {
             let out = T::Out::part(&mut out, i * per_ray..(i + 1) * per_ray);
-            one_ray::<T>(backend, strategy, &inputs.slice(i..i + 1), out)
+            one_ray::<T>(backend, method, &inputs.slice(i..i + 1), out)
         };
         (whole..rays).map(of_ray).fold(Counts::default(), |sum, counts| sum + counts)
     } else if whole > 0 {
         // The last group once more, up to the end: what was written is written again, with the same bits.
         let last = inputs.from(rays - lanes).counting(lanes - few..lanes);
         let out = T::Out::part(&mut out, (rays - lanes) * per_ray..rays * per_ray);
-        T::run(backend, strategy, &last, out)
+        T::run(backend, method, &last, out)
     } else {
         let mut pads = Pads::new();
         let padded = pads.of_rays(inputs, lanes).counting(0..few);
         if per_ray == 1 {
             let given = first_values(inputs.given);
-            T::Out::by_pads(out, |out| T::run(backend, strategy, &padded.by_turn(&given, 1), out))
+            T::Out::by_pads(out, |out| T::run(backend, method, &padded.by_turn(&given, 1), out))
         } else {
             // Lanes beyond the rays find no values.
-            T::run(backend, strategy, &padded, out)
+            T::run(backend, method, &padded, out)
         }
     };
     counts + rest
 }
 
 /// Takes one ray the whole way: every lane has it, and a value of its own.
-fn one_ray<T: Task>(backend: Backend, strategy: Strategy, inputs: &Inputs<'_>, mut out: Out<'_, T>) -> Counts {
+fn one_ray<T: Task>(backend: Backend, method: Method, inputs: &Inputs<'_>, mut out: Out<'_, T>) -> Counts {
     let (lanes, values) = (backend.lanes(), inputs.per_ray);
     let mut pads = Pads::new();
     let everywhere = pads.of_one_ray(inputs, lanes);
     if values < lanes {
         let given = first_values(inputs.given);
         let turn = everywhere.by_turn(&given, 1).counting(0..values);
-        return T::Out::by_pads(out, |out| T::run(backend, strategy, &turn, out));
+        return T::Out::by_pads(out, |out| T::run(backend, method, &turn, out));
     }
     let mut run = |range: Range<usize>, counted| {
         let given = inputs.of_one_ray(range.clone()).given;
         let turns = everywhere.by_turn(given, range.len() / lanes).counting(counted);
-        T::run(backend, strategy, &turns, T::Out::part(&mut out, range))
+        T::run(backend, method, &turns, T::Out::part(&mut out, range))
     };
     let few = values % lanes;
     let whole = run(0..values - few, 0..lanes);

@@ -1,6 +1,7 @@
 //! The public face: sample, pdf and evaluate, for a batch or for one ray.
 
 use crate::batch::{Counts, Emitters, Inputs, Media, Rays, Samples};
+use crate::road::Method;
 use crate::scene::{Emitter, Medium, Ray};
 use crate::simd::Backend;
 use crate::{Error, Precision, Strategy, road};
@@ -52,7 +53,11 @@ impl Sampler {
         if self.strategy.has_precision(precision) {
             Ok(Self { precision, ..self })
         } else {
-            Err(Error::Unavailable { field: "fast precision", strategy: self.strategy })
+            let field = match precision {
+                Precision::Exact => "exact precision",
+                Precision::Fast => "fast precision",
+            };
+            Err(Error::Unavailable { field, strategy: self.strategy })
         }
     }
 
@@ -60,6 +65,10 @@ impl Sampler {
     #[must_use]
     pub fn with_backend(self, backend: Backend) -> Self {
         Self { backend, ..self }
+    }
+
+    pub(crate) fn method(&self) -> Method {
+        Method { strategy: self.strategy, precision: self.precision }
     }
 
     /// Its density.
@@ -83,6 +92,8 @@ impl Sampler {
     /// by no more than 5e-6 of the CDF. What is written for an empty or invalid ray is 0. A variate outside `[0, 1]`
     /// makes its ray invalid. Equal inputs give equal bits, wherever they stand in a batch and however many threads
     /// there are, in the [default floating-point environment](Self#floating-point-environment).
+    ///
+    /// Errors are those of [`Precision::Exact`]; what `Fast` has instead stands [there](Precision).
     ///
     /// Beyond the rounding of `t` to f32 the CDF at `t` is within 2^-20 of `u`. `r`, to 4 ulp, and the weight, to 2e-5, are
     /// those of a distance that rounds to `t`, or of a variate so near to `u`: next to the emitter `t` resolves neither.
@@ -115,7 +126,7 @@ impl Sampler {
             weight: samples.weight.as_deref_mut(),
             r: samples.r.as_deref_mut(),
         };
-        Ok(road::travel::<road::Sample>(self.backend, self.strategy, &inputs, out))
+        Ok(road::travel::<road::Sample>(self.backend, self.method(), &inputs, out))
     }
 
     /// An estimate of each ray's single-scattered radiance per unit of the emitter's intensity \[1/m^2\], without a
@@ -152,7 +163,7 @@ impl Sampler {
         }
         let inputs = Inputs::new(rays, emitters, media)?;
         inputs.check("radiance", radiance)?;
-        Ok(road::travel::<road::Radiance>(self.backend, self.strategy, &inputs, radiance))
+        Ok(road::travel::<road::Radiance>(self.backend, self.method(), &inputs, radiance))
     }
 
     /// The density at given distances `t`, for multiple importance sampling \[1/m\]; 0 outside the sampled interval.
@@ -160,7 +171,7 @@ impl Sampler {
     /// It is the density of what [`sample`](Self::sample) returns, taken at `t` as rounded: where `t` resolves `r` the
     /// two agree within 1e-5, next to the emitter that of `sample` is the exact one.
     ///
-    /// | error at a given `t`, in ulp | 99 % of rays | 99.99 % |
+    /// | error at a given `t`, in ulp, of [`Precision::Exact`] | 99 % of rays | 99.99 % |
     /// |---|---|---|
     /// | all densities, but for what follows | 8 | 64 |
     /// | product densities at the very ends of the interval, where they may vanish | 14 | 128 |
@@ -189,11 +200,11 @@ impl Sampler {
     ) -> Result<Counts, Error> {
         let inputs = Inputs::new(rays, emitters, media)?.with(t, "t")?;
         inputs.check_given("pdf", pdf)?;
-        Ok(road::travel::<road::Pdf>(self.backend, self.strategy, &inputs, pdf))
+        Ok(road::travel::<road::Pdf>(self.backend, self.method(), &inputs, pdf))
     }
 
-    /// The integrand `mu_s T rho N / r^2` at given distances `t` \[1/m^3\], the same for every strategy; 0 outside
-    /// `[t_min, t_max]`, and at most `f32::MAX`. Max error 48 ulp where the optical depth is below 30 and the
+    /// The integrand `mu_s T rho N / r^2` at given distances `t` \[1/m^3\], the same for every strategy of a precision; 0 outside
+    /// `[t_min, t_max]`, and at most `f32::MAX`. Of [`Precision::Exact`] max error 48 ulp where the optical depth is below 30 and the
     /// ray's line at least 1e-7 of the distance off the emitter; where N vanishes, relative to N = 1e-3.
     ///
     /// # Errors
@@ -208,7 +219,7 @@ impl Sampler {
     ) -> Result<Counts, Error> {
         let inputs = Inputs::new(rays, emitters, media)?.with(t, "t")?;
         inputs.check_given("integrand", integrand)?;
-        Ok(road::travel::<road::Evaluate>(self.backend, Strategy::EquiAngular, &inputs, integrand))
+        Ok(road::travel::<road::Evaluate>(self.backend, self.method(), &inputs, integrand))
     }
 
     /// Goes the road of [`sample`](Self::sample) up to a stage and no further, to time it; nothing is written.
@@ -226,7 +237,7 @@ impl Sampler {
         u: &[f32],
     ) -> Result<(), Error> {
         let inputs = Inputs::new(rays, emitters, media)?.with(u, "u")?;
-        road::travel::<road::stages::UpTo>(self.backend, self.strategy, &inputs, stage);
+        road::travel::<road::stages::UpTo>(self.backend, self.method(), &inputs, stage);
         Ok(())
     }
 
@@ -240,7 +251,7 @@ impl Sampler {
             weight: Some(from_mut(&mut weight)),
             r: Some(from_mut(&mut r)),
         };
-        let counts = one::<road::Sample>(self.backend, self.strategy, ray, emitter, medium, u, out);
+        let counts = one::<road::Sample>(self.backend, self.method(), ray, emitter, medium, u, out);
         (counts.sampled == 1).then_some(Sample { t, pdf, weight, r })
     }
 
@@ -248,7 +259,7 @@ impl Sampler {
     #[must_use]
     pub fn pdf_one(&self, ray: &Ray, emitter: &Emitter, medium: &Medium, t: f32) -> f32 {
         let mut pdf = 0.0;
-        one::<road::Pdf>(self.backend, self.strategy, ray, emitter, medium, t, from_mut(&mut pdf));
+        one::<road::Pdf>(self.backend, self.method(), ray, emitter, medium, t, from_mut(&mut pdf));
         pdf
     }
 
@@ -256,8 +267,7 @@ impl Sampler {
     #[must_use]
     pub fn evaluate_one(&self, ray: &Ray, emitter: &Emitter, medium: &Medium, t: f32) -> f32 {
         let mut integrand = 0.0;
-        let strategy = Strategy::EquiAngular;
-        one::<road::Evaluate>(self.backend, strategy, ray, emitter, medium, t, from_mut(&mut integrand));
+        one::<road::Evaluate>(self.backend, self.method(), ray, emitter, medium, t, from_mut(&mut integrand));
         integrand
     }
 }
@@ -265,7 +275,7 @@ impl Sampler {
 /// A batch of one ray.
 fn one<T: road::Task>(
     backend: Backend,
-    strategy: Strategy,
+    method: Method,
     ray: &Ray,
     emitter: &Emitter,
     medium: &Medium,
@@ -281,5 +291,5 @@ fn one<T: road::Task>(
         t_max: from_ref(&t_max),
     };
     let inputs = Inputs::one(rays, *emitter, *medium, from_ref(&given));
-    road::travel::<T>(backend, strategy, &inputs, out)
+    road::travel::<T>(backend, method, &inputs, out)
 }

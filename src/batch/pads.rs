@@ -16,15 +16,18 @@ pub(crate) struct Pads {
 }
 
 impl Pads {
-    /// Zeros; rays of them are invalid, as their directions have length 0.
+    /// Nothing yet.
     #[inline]
     pub(crate) fn new() -> Self {
         Self { rays: [NOTHING; 8], emitters: None, media: None }
     }
 
-    /// A lane group of so many lanes: the rays of `inputs` one after the other, then invalid ones.
+    /// A lane group of so many lanes: the rays of `inputs` one after the other, then the first one again.
     pub(crate) fn of_rays<'a>(&'a mut self, inputs: &Inputs<'a>, lanes: usize) -> Inputs<'a> {
-        self.fill(inputs, lanes, |pad, column| pad[..column.len()].copy_from_slice(column))
+        self.fill(inputs, lanes, |pad, column| {
+            pad.fill(column[0]);
+            pad[..column.len()].copy_from_slice(column);
+        })
     }
 
     /// The one ray of `inputs` in all of so many lanes.

@@ -1,58 +1,65 @@
 //! The integrand at given distances, whatever the density.
 
-use super::Task;
-use super::groups::{Group, for_each_group, for_each_turn};
-use crate::Strategy;
-use crate::batch::{Column, Counts, Inputs};
-use crate::integrand::integrand_r2;
-use crate::simd::{Isa, Kernel, Lanes, Machine, none};
+use super::blocks::{Block, Tally, Wanted, for_each_block, for_each_run};
+use super::{Method, Task};
+use crate::Precision;
+use crate::batch::{Column, Counts, Inputs, Outputs, Turn};
+use crate::integrand::{MediumLanes, integrand_r2};
+use crate::simd::{GROUPS, Isa, Kernel, Lanes, Machine, none};
 
 pub(crate) struct Evaluate;
 
 impl Task for Evaluate {
     type Out = Column;
 
-    fn run(machine: impl Machine, _: Strategy, inputs: &Inputs<'_>, out: &mut [f32]) -> Counts {
-        machine.run(OnGroups { inputs, out })
+    fn run(machine: impl Machine, method: Method, inputs: &Inputs<'_>, out: &mut [f32]) -> Counts {
+        machine.run(OnGroups { precision: method.precision, inputs, out })
     }
 }
 
 /// Its kernel.
 struct OnGroups<'a> {
+    precision: Precision,
     inputs: &'a Inputs<'a>,
     out: &'a mut [f32],
 }
 
 impl Kernel for OnGroups<'_> {
     type Output = Counts;
-    type Home = Evaluate;
 
-    #[cfg_attr(optimized, inline(always))]
     fn run<I: Isa>(self, isa: I) -> Counts {
-        let Self { inputs, out } = self;
-        let zero = isa.splat(0.0);
-        for_each_group(
-            isa,
-            inputs,
-            #[cfg_attr(optimized, inline(always))]
-            |group, tally| {
-                let Group { geometry, medium, index } = &group;
-                for_each_turn(
-                    isa,
-                    inputs,
-                    *index,
-                    tally,
-                    #[cfg_attr(optimized, inline(always))]
-                    |turn, t, tally| {
-                        let valid = group.valid() & t.eq(t);
-                        let inside = valid & geometry.faced & geometry.t_min.le(t) & t.le(geometry.t_max);
-                        let point = geometry.point_at_distance(isa, t);
-                        let f = integrand_r2(isa, geometry, medium, &point) / (point.r * point.r);
-                        turn.store(isa, I::V::select(inside, f.min(isa.splat(f32::MAX)), zero), out);
-                        tally.add(isa, valid, geometry.faced, none(isa));
-                    },
-                );
-            },
-        )
+        let Self { precision, inputs, mut out } = self;
+        let (mut tally, mut pad) = (Tally::new(isa, inputs), None);
+        for_each_block(isa, inputs, Wanted { precision, cosine: true, records: GROUPS }, |block| {
+            for_each_run(block, |run| {
+                let t = run.values(inputs.given, &mut pad);
+                Column::of_run(&mut out, run, |out| integrands(isa, block, run.turns, t, out, &mut tally));
+            });
+        });
+        tally.counts(isa, inputs)
     }
+}
+
+/// The integrands of some turns at the distances `t`.
+fn integrands<I: Isa>(isa: I, block: &Block<'_, I>, turns: &[Turn], t: &[f32], out: &mut [f32], tally: &mut Tally<I>) {
+    isa.vectorize::<MediumLanes<I>, _>(
+        #[cfg_attr(optimized, inline(always))]
+        || {
+            let (rays, media) = (block.inputs.ray_groups::<I>(), &block.inputs.media);
+            let mut medium = media.lanes(isa, block.groups.start);
+            let geometries = block.geometries();
+            for ((turn, t), out) in turns.iter().zip(I::groups(t)).zip(I::groups_mut(out)) {
+                let group = block.groups.start + turn.record;
+                media.renew(isa, group, &mut medium);
+                let (ray, geometry) = (rays.lanes(isa, group), geometries.get(turn.record));
+                let t = isa.load(t);
+                let (valid, faced) = (geometry.foot.valid & medium.valid & t.eq(t), geometry.faced(isa));
+                let inside = valid & faced & ray.t_min.le(t) & t.le(ray.end(isa));
+                let point = geometry.point_at_distance(isa, t);
+                let f = integrand_r2(isa, &ray, geometry, &medium, &point) / (point.r * point.r);
+                isa.store(I::V::only(inside, f.min(isa.splat(f32::MAX))), out);
+                tally.add(valid, valid & faced, none(isa));
+            }
+        },
+    );
 }

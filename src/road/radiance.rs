@@ -1,12 +1,12 @@
 //! What the density's own normalisation says of the integral.
 
-use super::Task;
-use super::groups::{Group, for_each_group};
-use crate::Strategy;
+use super::blocks::{Tally, Wanted, for_each_block, set_up};
+use super::{Method, Task};
 use crate::batch::{Column, Counts, Inputs};
-use crate::density::{Density, Kind};
-use crate::simd::{Isa, Kernel, Lanes, Machine, none};
+use crate::density::{Density, SetUp};
+use crate::simd::{Isa, Kernel, Lanes, Machine, Room, none};
 use crate::strategy::product::{Product, knots};
+use crate::{Precision, Strategy};
 use core::marker::PhantomData;
 
 /// Product densities alone have one; the sampler refuses others.
@@ -15,12 +15,13 @@ pub(crate) struct Radiance;
 impl Task for Radiance {
     type Out = Column;
 
-    fn run(machine: impl Machine, strategy: Strategy, inputs: &Inputs<'_>, out: &mut [f32]) -> Counts {
+    fn run(machine: impl Machine, method: Method, inputs: &Inputs<'_>, out: &mut [f32]) -> Counts {
+        let Method { strategy, precision } = method;
         match strategy {
-            Strategy::Product3 => machine.run(OnGroups::<knots::three::Kind, 3>::new(inputs, out)),
-            Strategy::Product5 => machine.run(OnGroups::<knots::five::Kind, 5>::new(inputs, out)),
-            Strategy::Product9 => machine.run(OnGroups::<knots::nine::Kind, 9>::new(inputs, out)),
-            Strategy::Product17 => machine.run(OnGroups::<knots::seventeen::Kind, 17>::new(inputs, out)),
+            Strategy::Product3 => machine.run(OnGroups::<knots::three::Kind, 3>::new(precision, inputs, out)),
+            Strategy::Product5 => machine.run(OnGroups::<knots::five::Kind, 5>::new(precision, inputs, out)),
+            Strategy::Product9 => machine.run(OnGroups::<knots::nine::Kind, 9>::new(precision, inputs, out)),
+            Strategy::Product17 => machine.run(OnGroups::<knots::seventeen::Kind, 17>::new(precision, inputs, out)),
             _ => Counts::default(),
         }
     }
@@ -28,38 +29,47 @@ impl Task for Radiance {
 
 /// Its kernel for a number of knots.
 struct OnGroups<'a, D, const K: usize> {
+    precision: Precision,
     inputs: &'a Inputs<'a>,
     out: &'a mut [f32],
     density: PhantomData<D>,
 }
 
 impl<'a, D, const K: usize> OnGroups<'a, D, K> {
-    fn new(inputs: &'a Inputs<'a>, out: &'a mut [f32]) -> Self {
-        Self { inputs, out, density: PhantomData }
+    fn new(precision: Precision, inputs: &'a Inputs<'a>, out: &'a mut [f32]) -> Self {
+        Self { precision, inputs, out, density: PhantomData }
     }
 }
 
-impl<D: Kind, const K: usize> Kernel for OnGroups<'_, D, K> {
+impl<D, const K: usize> Kernel for OnGroups<'_, D, K> {
     type Output = Counts;
-    type Home = D;
 
-    #[cfg_attr(optimized, inline(always))]
     fn run<I: Isa>(self, isa: I) -> Counts {
-        let Self { inputs, out, .. } = self;
-        let zero = isa.splat(0.0);
-        for_each_group(
-            isa,
-            inputs,
-            #[cfg_attr(optimized, inline(always))]
-            |group, tally| {
-                let Group { geometry, medium, index } = &group;
-                let lit = Product::<I, K>::lit(isa, geometry);
-                let sampled = group.valid() & lit;
-                let radiance = Product::<I, K>::new(isa, geometry, medium).radiance(isa, geometry, medium);
-                let value = I::V::select(sampled, radiance.min(isa.splat(f32::MAX)), zero);
-                inputs.turn(*index, 0).store(isa, value, out);
-                tally.add(isa, group.valid(), lit, none(isa));
-            },
-        )
+        let Self { precision, inputs, out, .. } = self;
+        let mut tally = Tally::new(isa, inputs);
+        let mut set_ups = <Product<I, K> as Density<I>>::SetUps::new();
+        let records = <Product<I, K> as Density<I>>::SetUps::SIZE;
+        for_each_block(isa, inputs, Wanted { precision, cosine: true, records }, |block| {
+            let set_ups = set_up::<I, D, Product<I, K>>(isa, block, &mut set_ups);
+            isa.vectorize::<D, _>(
+                #[cfg_attr(optimized, inline(always))]
+                || {
+                    let rays = inputs.ray_groups::<I>();
+                    let mut medium = inputs.media.lanes(isa, block.groups.start);
+                    let geometries = block.geometries();
+                    let out = &mut I::groups_mut(out)[block.groups.clone()];
+                    for (record, (set_up, out)) in set_ups.iter().zip(out).enumerate() {
+                        let (group, geometry) = (block.groups.start + record, geometries.get(record));
+                        inputs.media.renew(isa, group, &mut medium);
+                        let SetUp { density, valid, lit } = set_up;
+                        let radiance = density.radiance(isa, &rays.lanes(isa, group), geometry, &medium);
+                        let value = I::V::only(*valid & *lit, radiance.min(isa.splat(f32::MAX)));
+                        isa.store(value, out);
+                        tally.add(*valid, *valid & *lit, none(isa));
+                    }
+                },
+            );
+        });
+        tally.counts(isa, inputs)
     }
 }

@@ -1,24 +1,25 @@
 //! Draws a distance for every variate that is given.
 
-use super::groups::{Group, for_each_group, for_each_turn};
-use super::{OfDensity, Out, Task, by_strategy};
-use crate::Strategy;
-use crate::batch::{Counts, Inputs, OfSamples, Samples};
-use crate::density::{Density, Kind};
-use crate::integrand::integrand_r2;
-use crate::simd::{Isa, Lanes, Machine};
+use super::blocks::{AHEAD, Block, Geometries, SetUps, Tally, Wanted, for_each_block, for_each_run, set_up};
+use super::{Method, OfDensity, Out, Task, by_strategy};
+use crate::Precision;
+use crate::batch::{Counts, Inputs, OfSamples, Outputs, RayGroups, Samples, Turn};
+use crate::density::{Density, Drawn, Kind, SetUp};
+use crate::geometry::Geometry;
+use crate::integrand::{MediumLanes, integrand_r2};
+use crate::simd::{GROUPS, Isa, Lanes, Machine, Records, Room};
 
 pub(crate) struct Sample;
 
 impl Task for Sample {
     type Out = OfSamples;
 
-    fn run(machine: impl Machine, strategy: Strategy, inputs: &Inputs<'_>, out: Samples<'_>) -> Counts {
-        // Apart, as what weights are made of would be computed, and kept in memory, where nobody asks for them.
+    fn run(machine: impl Machine, method: Method, inputs: &Inputs<'_>, out: Samples<'_>) -> Counts {
+        // Apart, as points are handed on for weights and `r` alone.
         if out.weight.is_some() || out.r.is_some() {
-            by_strategy::<Drawing<true>>(machine, strategy, inputs, out)
+            by_strategy::<Drawing<true>>(machine, method, inputs, out)
         } else {
-            by_strategy::<Drawing<false>>(machine, strategy, inputs, out)
+            by_strategy::<Drawing<false>>(machine, method, inputs, out)
         }
     }
 }
@@ -29,47 +30,296 @@ struct Drawing<const WITH_WEIGHT_OR_R: bool>;
 impl<const WITH_WEIGHT_OR_R: bool> Task for Drawing<WITH_WEIGHT_OR_R> {
     type Out = OfSamples;
 
-    fn run(machine: impl Machine, strategy: Strategy, inputs: &Inputs<'_>, out: Samples<'_>) -> Counts {
-        by_strategy::<Self>(machine, strategy, inputs, out)
+    fn run(machine: impl Machine, method: Method, inputs: &Inputs<'_>, out: Samples<'_>) -> Counts {
+        by_strategy::<Self>(machine, method, inputs, out)
     }
 }
 
 impl<const WITH_WEIGHT_OR_R: bool> OfDensity for Drawing<WITH_WEIGHT_OR_R> {
-    #[cfg_attr(optimized, inline(always))]
-    fn groups<I: Isa, D: Kind>(isa: I, inputs: &Inputs<'_>, mut out: Out<'_, Self>) -> Counts {
-        let zero = isa.splat(0.0);
-        for_each_group(
-            isa,
-            inputs,
+    fn groups<I: Isa, D: Kind>(isa: I, precision: Precision, inputs: &Inputs<'_>, mut out: Out<'_, Self>) -> Counts {
+        let mut tally = Tally::new(isa, inputs);
+        let (mut set_ups, mut places, mut points) = (SetUps::<I, D>::new(), Records::new(), Records::new());
+        let mut pad = None;
+        let wanted = Wanted {
+            precision,
+            cosine: D::On::<I>::COSINE || WITH_WEIGHT_OR_R,
+            records: if inputs.per_ray == 1 { GROUPS } else { SetUps::<I, D>::SIZE },
+        };
+        for_each_block(isa, inputs, wanted, |block| {
+            if inputs.per_ray == 1 {
+                let run = block.one_turn();
+                let u = run.values(inputs.given, &mut pad);
+                return OfSamples::of_run(&mut out, run, |mut out| {
+                    let once = Once { block, u };
+                    if WITH_WEIGHT_OR_R {
+                        let points = once.points::<D>(isa, &mut points, &mut out, &mut tally);
+                        weigh(isa, block, run.turns, points, &mut out);
+                    } else {
+                        once.write::<D>(isa, &mut out, &mut tally);
+                    }
+                });
+            }
+            let set_ups = set_up::<I, D, D::On<I>>(isa, block, &mut set_ups);
+            for_each_run(block, |run| {
+                let u = run.values(inputs.given, &mut pad);
+                let places = invert::<I, D>(isa, block, set_ups, run.turns, u, &mut places);
+                OfSamples::of_run(&mut out, run, |mut out| {
+                    let pass = Draw::<I, D> { block, set_ups, turns: run.turns, places };
+                    if WITH_WEIGHT_OR_R {
+                        let points = pass.points(isa, &mut points, &mut out, &mut tally);
+                        weigh(isa, block, run.turns, points, &mut out);
+                    } else {
+                        pass.write(isa, &mut out, &mut tally);
+                    }
+                });
+            });
+        });
+        tally.counts(isa, inputs)
+    }
+}
+
+/// One variate for each ray: set-up, inversion and output in one pass, as nothing of a set-up is used again.
+struct Once<'p, I: Isa> {
+    block: &'p Block<'p, I>,
+    u: &'p [f32],
+}
+
+impl<I: Isa> Once<'_, I> {
+    fn write<D: Kind>(&self, isa: I, out: &mut Samples<'_>, tally: &mut Tally<I>) {
+        isa.vectorize::<D, _>(
             #[cfg_attr(optimized, inline(always))]
-            |group, tally| {
-                let Group { geometry, medium, index } = &group;
-                let density = D::On::<I>::new(isa, geometry, medium);
-                let lit = D::On::<I>::lit(isa, geometry);
-                for_each_turn(
-                    isa,
-                    inputs,
-                    *index,
-                    tally,
+            || {
+                let mut stations = self.stations(isa);
+                let (t, pdf) = (I::groups_mut(out.t), I::groups_mut(out.pdf));
+                for ((record, t), pdf) in (0..self.block.groups.len()).zip(t).zip(pdf) {
+                    stations.go::<D>(isa, record, t, pdf, tally);
+                }
+            },
+        );
+    }
+
+    /// The same, and the points.
+    fn points<'r, D: Kind>(
+        &self,
+        isa: I,
+        records: &'r mut Records<Sampled<I>>,
+        out: &mut Samples<'_>,
+        tally: &mut Tally<I>,
+    ) -> &'r [Sampled<I>] {
+        isa.vectorize::<D, _>(
+            #[cfg_attr(optimized, inline(always))]
+            || {
+                let mut stations = self.stations(isa);
+                let (t, pdf) = (I::groups_mut(out.t), I::groups_mut(out.pdf));
+                records.fill(
+                    self.block.groups.len(),
                     #[cfg_attr(optimized, inline(always))]
-                    |turn, u, tally| {
-                        let valid = group.valid() & zero.le(u) & u.le(isa.splat(1.0));
-                        let sampled = valid & lit;
-                        let drawn = density.invert(isa, geometry, u);
-                        turn.store(isa, I::V::select(sampled, drawn.point.t, zero), out.t);
-                        turn.store(isa, I::V::select(sampled, drawn.pdf.over_t, zero), out.pdf);
-                        if WITH_WEIGHT_OR_R && let Some(weight) = &mut out.weight {
-                            let value = integrand_r2(isa, geometry, medium, &drawn.point) / drawn.pdf.times_r2;
-                            let possible = sampled & zero.lt(drawn.pdf.times_r2);
-                            turn.store(isa, I::V::select(possible, value.min(isa.splat(f32::MAX)), zero), weight);
-                        }
-                        if WITH_WEIGHT_OR_R && let Some(r) = &mut out.r {
-                            turn.store(isa, I::V::select(sampled, drawn.point.r, zero), r);
-                        }
-                        tally.add(isa, valid, lit, drawn.bisected);
-                    },
-                );
+                    |record| stations.go::<D>(isa, record, &mut t[record], &mut pdf[record], tally),
+                )
             },
         )
     }
+
+    #[cfg_attr(optimized, inline(always))]
+    fn stations(&self, isa: I) -> Stations<'_, I> {
+        let Block { inputs, groups, .. } = self.block;
+        Stations {
+            inputs,
+            first: groups.start,
+            rays: inputs.ray_groups(),
+            geometries: self.block.geometries(),
+            u: &I::groups(self.u)[..groups.len()],
+            medium: inputs.media.lanes(isa, groups.start),
+        }
+    }
+}
+
+/// What the lane groups of a block need to go from geometry to output.
+struct Stations<'p, I: Isa> {
+    inputs: &'p Inputs<'p>,
+    first: usize,
+    rays: RayGroups<'p, I>,
+    geometries: Geometries<'p, I>,
+    u: &'p [I::Group],
+    medium: MediumLanes<I>,
+}
+
+impl<I: Isa> Stations<'_, I> {
+    #[cfg_attr(optimized, inline(always))]
+    fn go<D: Kind>(
+        &mut self,
+        isa: I,
+        record: usize,
+        t: &mut I::Group,
+        pdf: &mut I::Group,
+        tally: &mut Tally<I>,
+    ) -> Sampled<I> {
+        let (group, geometry) = (self.first + record, self.geometries.get(record));
+        self.inputs.media.renew(isa, group, &mut self.medium);
+        let ray = self.rays.lanes(isa, group);
+        let set_up = SetUp::<I, D::On<I>>::new(isa, &ray, geometry, &self.medium);
+        let inverted = Inverted::new(isa, geometry, &set_up, &self.u[record]);
+        draw_one::<I, D>(isa, geometry, &set_up, &inverted, t, pdf, tally)
+    }
+}
+
+/// Where a variate leads.
+#[derive(Clone, Copy)]
+pub(super) struct Inverted<I: Isa, P> {
+    place: P,
+    /// Which lanes have a ray, a medium and a variate.
+    valid: I::Mask,
+}
+
+impl<I: Isa, P> Inverted<I, P> {
+    #[cfg_attr(optimized, inline(always))]
+    fn new<D: Density<I, Place = P>>(isa: I, geometry: Geometry<'_, I>, set_up: &SetUp<I, D>, u: &I::Group) -> Self {
+        isa.prefetch(u, AHEAD);
+        let u = isa.load(u);
+        let place = set_up.density.invert(isa, geometry, u);
+        Self { place, valid: set_up.valid & isa.splat(0.0).le(u) & u.le(isa.splat(1.0)) }
+    }
+}
+
+/// By the density `D`.
+pub(super) type InvertedBy<I, D> = Inverted<I, <<D as Kind>::On<I> as Density<I>>::Place>;
+
+/// The variates of some turns through the inverse of the CDF.
+pub(super) fn invert<'r, I: Isa, D: Kind>(
+    isa: I,
+    block: &Block<'_, I>,
+    set_ups: &[SetUp<I, D::On<I>>],
+    turns: &[Turn],
+    u: &[f32],
+    records: &'r mut Records<InvertedBy<I, D>>,
+) -> &'r [InvertedBy<I, D>] {
+    isa.vectorize::<D, _>(
+        #[cfg_attr(optimized, inline(always))]
+        || {
+            let (u, geometries) = (&I::groups(u)[..turns.len()], block.geometries());
+            let set_ups = &set_ups[..block.groups.len()];
+            records.fill(
+                turns.len(),
+                #[cfg_attr(optimized, inline(always))]
+                |index| {
+                    let record = turns[index].record;
+                    Inverted::new(isa, geometries.get(record), &set_ups[record], &u[index])
+                },
+            )
+        },
+    )
+}
+
+/// A point that was drawn, and for which lanes.
+#[derive(Clone, Copy)]
+struct Sampled<I: Isa> {
+    drawn: Drawn<I>,
+    sampled: I::Mask,
+}
+
+/// The points of the ray to which variates lead, written as `t` and `pdf`.
+struct Draw<'p, I: Isa, D: Kind> {
+    block: &'p Block<'p, I>,
+    set_ups: &'p [SetUp<I, D::On<I>>],
+    turns: &'p [Turn],
+    places: &'p [InvertedBy<I, D>],
+}
+
+impl<I: Isa, D: Kind> Draw<'_, I, D> {
+    fn write(&self, isa: I, out: &mut Samples<'_>, tally: &mut Tally<I>) {
+        isa.vectorize::<D, _>(
+            #[cfg_attr(optimized, inline(always))]
+            || {
+                let ((t, pdf), geometries) = (self.groups(out), self.block.geometries());
+                let (places, set_ups) = (&self.places[..t.len()], &self.set_ups[..self.block.groups.len()]);
+                for (((turn, place), t), pdf) in self.turns.iter().zip(places).zip(t).zip(pdf) {
+                    let geometry = geometries.get(turn.record);
+                    draw_one::<I, D>(isa, geometry, &set_ups[turn.record], place, t, pdf, tally);
+                }
+            },
+        );
+    }
+
+    /// The same, and the points.
+    fn points<'r>(
+        &self,
+        isa: I,
+        records: &'r mut Records<Sampled<I>>,
+        out: &mut Samples<'_>,
+        tally: &mut Tally<I>,
+    ) -> &'r [Sampled<I>] {
+        isa.vectorize::<D, _>(
+            #[cfg_attr(optimized, inline(always))]
+            || {
+                let ((t, pdf), geometries) = (self.groups(out), self.block.geometries());
+                let set_ups = &self.set_ups[..self.block.groups.len()];
+                let places = &self.places[..t.len()];
+                records.fill(
+                    t.len(),
+                    #[cfg_attr(optimized, inline(always))]
+                    |index| {
+                        let record = self.turns[index].record;
+                        let (set_up, place) = (&set_ups[record], &places[index]);
+                        let (t, pdf) = (&mut t[index], &mut pdf[index]);
+                        draw_one::<I, D>(isa, geometries.get(record), set_up, place, t, pdf, tally)
+                    },
+                )
+            },
+        )
+    }
+
+    /// `t` and `pdf` of the turns.
+    #[cfg_attr(optimized, inline(always))]
+    fn groups<'o>(&self, out: &'o mut Samples<'_>) -> (&'o mut [I::Group], &'o mut [I::Group]) {
+        let count = self.turns.len();
+        (&mut I::groups_mut(out.t)[..count], &mut I::groups_mut(out.pdf)[..count])
+    }
+}
+
+#[cfg_attr(optimized, inline(always))]
+fn draw_one<I: Isa, D: Kind>(
+    isa: I,
+    geometry: Geometry<'_, I>,
+    set_up: &SetUp<I, D::On<I>>,
+    inverted: &InvertedBy<I, D>,
+    t: &mut I::Group,
+    pdf: &mut I::Group,
+    tally: &mut Tally<I>,
+) -> Sampled<I> {
+    let (SetUp { density, lit, .. }, Inverted { place, valid }) = (set_up, inverted);
+    isa.prefetch(t, AHEAD);
+    isa.prefetch(pdf, AHEAD);
+    let sampled = *valid & *lit;
+    let drawn = density.point(isa, geometry, place);
+    isa.store(I::V::only(sampled, drawn.point.t), t);
+    isa.store(I::V::only(sampled, drawn.pdf.over_t), pdf);
+    tally.add(*valid, sampled, drawn.bisected);
+    Sampled { drawn, sampled }
+}
+
+/// What the points weigh, and how far they are from the emitter.
+fn weigh<I: Isa>(isa: I, block: &Block<'_, I>, turns: &[Turn], points: &[Sampled<I>], out: &mut Samples<'_>) {
+    isa.vectorize::<MediumLanes<I>, _>(
+        #[cfg_attr(optimized, inline(always))]
+        || {
+            if let Some(r) = &mut out.r {
+                for (Sampled { drawn, sampled }, r) in points.iter().zip(I::groups_mut(r)) {
+                    isa.store(I::V::only(*sampled, drawn.point.r), r);
+                }
+            }
+            let Some(weight) = &mut out.weight else { return };
+            let (rays, media) = (block.inputs.ray_groups::<I>(), &block.inputs.media);
+            let mut medium = media.lanes(isa, block.groups.start);
+            let geometries = block.geometries();
+            for ((turn, Sampled { drawn, sampled }), weight) in turns.iter().zip(points).zip(I::groups_mut(weight)) {
+                let group = block.groups.start + turn.record;
+                media.renew(isa, group, &mut medium);
+                let (ray, geometry) = (rays.lanes(isa, group), geometries.get(turn.record));
+                let times_r2 = drawn.pdf.times_r2;
+                let f = integrand_r2(isa, &ray, geometry, &medium, &drawn.point);
+                let value = (f / times_r2).min(isa.splat(f32::MAX));
+                isa.store(I::V::only(*sampled & isa.splat(0.0).lt(times_r2), value), weight);
+            }
+        },
+    );
 }

@@ -1,14 +1,15 @@
-//! The road cut short, to time its stages.
+//! The road cut short, to time its stations.
 //!
-//! What a stage has computed is kept from being optimised away by `black_box`, for which it is written to memory: a few
-//! ns per lane group that the whole road does not pay, as it keeps such values in registers where it can.
+//! Each station is a pass that writes records, so that what a longer road takes more is what the station adds. With one
+//! variate per ray the whole road has set-up, inversion and output in one pass without records: less than their sum.
 
-use super::groups::{Group, for_each_group, for_each_turn};
-use super::{OfDensity, Task, by_strategy};
-use crate::Strategy;
-use crate::batch::{Counts, Inputs, Outputs};
+use super::blocks::{SetUps, Wanted, for_each_block, for_each_run, set_up};
+use super::sample::invert;
+use super::{Method, OfDensity, Task, by_strategy};
+use crate::Precision;
+use crate::batch::{Counts, Inputs, Outputs, Run};
 use crate::density::{Density, Kind};
-use crate::simd::{Isa, Lanes, Machine, none};
+use crate::simd::{Isa, Machine, Records, Room};
 use core::hint::black_box;
 use core::ops::Range;
 
@@ -19,7 +20,7 @@ pub enum Stage {
     Geometry,
     /// The density is set up as well.
     SetUp,
-    /// The points are drawn as well, and not written.
+    /// Variates go through the inverse of the CDF as well; what is left is the point of the ray, and output.
     Inversion,
 }
 
@@ -38,6 +39,10 @@ impl Outputs for Stage {
         *out
     }
 
+    fn of_run<R>(out: &mut Self, _: Run<'_>, write: impl FnOnce(Self) -> R) -> R {
+        write(*out)
+    }
+
     fn by_pads<R>(out: Self, write: impl FnOnce(Self) -> R) -> R {
         write(out)
     }
@@ -46,49 +51,27 @@ impl Outputs for Stage {
 impl Task for UpTo {
     type Out = Stage;
 
-    fn run(machine: impl Machine, strategy: Strategy, inputs: &Inputs<'_>, stage: Stage) -> Counts {
-        by_strategy::<Self>(machine, strategy, inputs, stage)
+    fn run(machine: impl Machine, method: Method, inputs: &Inputs<'_>, stage: Stage) -> Counts {
+        by_strategy::<Self>(machine, method, inputs, stage)
     }
 }
 
 impl OfDensity for UpTo {
-    #[cfg_attr(optimized, inline(always))]
-    fn groups<I: Isa, D: Kind>(isa: I, inputs: &Inputs<'_>, stage: Stage) -> Counts {
-        let zero = isa.splat(0.0);
-        for_each_group(
-            isa,
-            inputs,
-            #[cfg_attr(optimized, inline(always))]
-            |group, tally| {
-                // Values, not references, go into the black box: the stages beyond keep theirs in registers.
-                if stage == Stage::Geometry {
-                    let (valid, lit) = (group.valid(), group.geometry.lit);
-                    black_box((group.geometry, group.medium.mu_t));
-                    return tally.add(isa, valid, lit, none(isa));
+    fn groups<I: Isa, D: Kind>(isa: I, precision: Precision, inputs: &Inputs<'_>, stage: Stage) -> Counts {
+        let (mut set_ups, mut places, mut pad) = (SetUps::<I, D>::new(), Records::new(), None);
+        let wanted = Wanted { precision, cosine: D::On::<I>::COSINE, records: SetUps::<I, D>::SIZE };
+        for_each_block(isa, inputs, wanted, |block| {
+            black_box(block.geometries().get(0));
+            if stage != Stage::Geometry {
+                let set_ups = black_box(set_up::<I, D, D::On<I>>(isa, block, &mut set_ups));
+                if stage == Stage::Inversion {
+                    for_each_run(block, |run| {
+                        let u = run.values(inputs.given, &mut pad);
+                        black_box(invert::<I, D>(isa, block, set_ups, run.turns, u, &mut places));
+                    });
                 }
-                let density = D::On::<I>::new(isa, &group.geometry, &group.medium);
-                if stage == Stage::SetUp {
-                    let (valid, lit) = (group.valid(), D::On::<I>::lit(isa, &group.geometry));
-                    black_box((group.geometry, density));
-                    return tally.add(isa, valid, lit, none(isa));
-                }
-                let lit = D::On::<I>::lit(isa, &group.geometry);
-                let Group { geometry, index, .. } = &group;
-                for_each_turn(
-                    isa,
-                    inputs,
-                    *index,
-                    tally,
-                    #[cfg_attr(optimized, inline(always))]
-                    |_, u, tally| {
-                        let valid = group.valid() & zero.le(u) & u.le(isa.splat(1.0));
-                        let drawn = density.invert(isa, geometry, u);
-                        let bisected = drawn.bisected;
-                        black_box(drawn);
-                        tally.add(isa, valid, lit, bisected);
-                    },
-                );
-            },
-        )
+            }
+        });
+        Counts::default()
     }
 }

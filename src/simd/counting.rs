@@ -170,6 +170,7 @@ impl Isa for Counting {
     type Mask = Truth;
     type Double = Counted<f64>;
     type Group = f32;
+    const FUSED: bool = true;
 
     fn splat(self, x: f32) -> Counted<f32> {
         Counted(x, 0)
@@ -189,6 +190,9 @@ impl Isa for Counting {
     fn store(self, lanes: Counted<f32>, group: &mut f32) {
         want(lanes.1);
         *group = lanes.0;
+    }
+    fn vectorize<Home, R>(self, work: impl FnOnce() -> R) -> R {
+        work()
     }
 }
 
@@ -221,6 +225,9 @@ impl Lanes for Counted<f32> {
     // Both are computed, whichever is taken.
     fn select(m: Truth, yes: Self, no: Self) -> Self {
         Self(if m.0 { yes.0 } else { no.0 }, step(NONE, [m.1, yes.1, no.1]))
+    }
+    fn only(m: Truth, x: Self) -> Self {
+        Self(if m.0 { x.0 } else { 0.0 }, step(NONE, [m.1, x.1, 0]))
     }
     fn bits(m: Truth) -> u32 {
         want(m.1);

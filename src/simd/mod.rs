@@ -9,6 +9,7 @@ pub(crate) mod counting;
 pub(crate) mod math;
 mod pair;
 mod portable;
+mod records;
 #[cfg(feature = "measure")]
 mod scalar;
 #[cfg(all(target_arch = "x86_64", not(test)))]
@@ -17,6 +18,7 @@ mod two;
 mod x86;
 
 pub(crate) use portable::Portable;
+pub(crate) use records::{GROUPS, Records, Room};
 
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
@@ -54,6 +56,8 @@ pub(crate) trait Lanes: Number + Div<Output = Self> {
     fn le(self, o: Self) -> Self::Mask;
     fn eq(self, o: Self) -> Self::Mask;
     fn select(m: Self::Mask, yes: Self, no: Self) -> Self;
+    /// `x` where the mask holds, else 0.
+    fn only(m: Self::Mask, x: Self) -> Self;
     /// Bit `i` is the truth of lane `i`.
     fn bits(m: Self::Mask) -> u32;
     /// `2^self` for integral values in `[-126, 127]`.
@@ -105,6 +109,8 @@ pub(crate) trait Isa: Copy {
     type Double: Double;
     /// An array of as many values as there are lanes.
     type Group: Copy;
+    /// Whether `mul_add` rounds once.
+    const FUSED: bool;
 
     fn splat(self, x: f32) -> Self::V;
     fn splat_double(self, x: f64) -> Self::Double;
@@ -113,6 +119,13 @@ pub(crate) trait Isa: Copy {
     fn groups_mut(column: &mut [f32]) -> &mut [Self::Group];
     fn load(self, group: &Self::Group) -> Self::V;
     fn store(self, lanes: Self::V, group: &mut Self::Group);
+    /// Prefetches the group that lies so many after this one; does nothing without such an instruction.
+    fn prefetch(self, _: &Self::Group, _ahead: usize) {}
+
+    /// Does `work` with the instructions of this set on. The work is inlined where the build is optimised, like all that it
+    /// calls. Its machine code belongs to the module of `Home`: compilers make one unit of a module, and several units at a
+    /// time.
+    fn vectorize<Home, R>(self, work: impl FnOnce() -> R) -> R;
 }
 
 /// No lane.
@@ -126,9 +139,7 @@ pub(crate) fn none<I: Isa>(isa: I) -> I::Mask {
 /// Code that is written once and run by one of several instruction sets.
 pub(crate) trait Kernel {
     type Output;
-    /// A type whose module the machine code belongs to: compilers make one unit of a module, and several units at a time.
-    type Home;
-    /// Inlined where the build is optimised, like all that it calls.
+    /// Work on lanes goes through [`Isa::vectorize`].
     fn run<I: Isa>(self, isa: I) -> Self::Output;
 }
 
@@ -138,16 +149,6 @@ pub(crate) trait Machine: Copy {
     fn lanes(self) -> usize;
     fn run<K: Kernel>(self, kernel: K) -> K::Output;
 }
-
-/// Where the machine code of the portable kernels is.
-trait Home: Sized {
-    #[inline(never)]
-    fn portable<K: Kernel<Home = Self>>(kernel: K) -> K::Output {
-        kernel.run(Portable)
-    }
-}
-
-impl<T> Home for T {}
 
 /// An instruction set that this CPU has: there is no other way to one than [`available`](Self::available).
 ///
@@ -211,7 +212,7 @@ impl Backend {
     #[must_use]
     pub fn is_fused(self) -> bool {
         match self.0 {
-            Kind::Portable => cfg!(all(target_arch = "x86_64", target_feature = "fma")),
+            Kind::Portable => Portable::FUSED,
             #[cfg(any(all(target_arch = "x86_64", not(test)), feature = "measure"))]
             _ => true,
         }
@@ -234,26 +235,15 @@ impl Machine for Backend {
         }
     }
 
-    /// Runs `kernel` with these instructions on.
     fn run<K: Kernel>(self, kernel: K) -> K::Output {
         match self.0 {
             #[cfg(all(target_arch = "x86_64", not(test)))]
-            Kind::Avx512(proof) => proof.vectorize(kernel, two::Two(proof)),
+            Kind::Avx512(proof) => kernel.run(two::Two(proof)),
             #[cfg(all(target_arch = "x86_64", not(test)))]
-            Kind::Avx2(proof) => proof.vectorize(kernel, two::Two(proof)),
-            Kind::Portable => K::Home::portable(kernel),
+            Kind::Avx2(proof) => kernel.run(two::Two(proof)),
+            Kind::Portable => kernel.run(Portable),
             #[cfg(feature = "measure")]
-            Kind::Scalar => on_one_lane(kernel),
+            Kind::Scalar => kernel.run(scalar::Scalar),
         }
     }
-}
-
-/// With FMA in the CPU `mul_add` of one lane is an instruction instead of a call.
-#[cfg(feature = "measure")]
-fn on_one_lane<K: Kernel>(kernel: K) -> K::Output {
-    #[cfg(all(target_arch = "x86_64", not(test)))]
-    if let Some(proof) = x86::Avx2::detect() {
-        return proof.vectorize(kernel, scalar::Scalar);
-    }
-    kernel.run(scalar::Scalar)
 }

@@ -92,6 +92,10 @@ impl<V: Lanes> Lanes for Pair<V> {
         Self(V::select(m.0, yes.0, no.0), V::select(m.1, yes.1, no.1))
     }
     #[inline]
+    fn only(m: Self::Mask, x: Self) -> Self {
+        Self(V::only(m.0, x.0), V::only(m.1, x.1))
+    }
+    #[inline]
     fn bits(m: Self::Mask) -> u32 {
         V::bits(m.0) | V::bits(m.1) << V::N
     }

@@ -14,6 +14,7 @@ impl Isa for Portable {
     type Mask = f32x8;
     type Double = Pair<f64x4>;
     type Group = [f32; 8];
+    const FUSED: bool = cfg!(all(target_arch = "x86_64", target_feature = "fma"));
 
     #[inline]
     fn splat(self, x: f32) -> f32x8 {
@@ -39,7 +40,20 @@ impl Isa for Portable {
     fn store(self, lanes: f32x8, group: &mut [f32; 8]) {
         *group = lanes.to_array();
     }
+    fn vectorize<H, R>(self, work: impl FnOnce() -> R) -> R {
+        H::apart(work)
+    }
 }
+
+/// Where the machine code of the portable kernels is.
+trait Home: Sized {
+    #[inline(never)]
+    fn apart<R>(work: impl FnOnce() -> R) -> R {
+        work()
+    }
+}
+
+impl<T> Home for T {}
 
 impl Number for f32x8 {
     #[inline]
@@ -84,6 +98,10 @@ impl Lanes for f32x8 {
     #[inline]
     fn select(m: f32x8, yes: Self, no: Self) -> Self {
         m.bitselect(yes, no)
+    }
+    #[inline]
+    fn only(m: f32x8, x: Self) -> Self {
+        m & x
     }
     #[inline]
     fn bits(m: f32x8) -> u32 {

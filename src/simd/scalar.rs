@@ -11,6 +11,7 @@ impl Isa for Scalar {
     type Mask = bool;
     type Double = f64;
     type Group = f32;
+    const FUSED: bool = true;
 
     #[inline]
     fn splat(self, x: f32) -> f32 {
@@ -35,6 +36,14 @@ impl Isa for Scalar {
     #[inline]
     fn store(self, lanes: f32, group: &mut f32) {
         *group = lanes;
+    }
+    /// With FMA in the CPU `mul_add` is an instruction instead of a call.
+    fn vectorize<H, R>(self, work: impl FnOnce() -> R) -> R {
+        #[cfg(all(target_arch = "x86_64", not(test)))]
+        if let Some(proof) = super::x86::Avx2::detect() {
+            return proof.vectorize::<H, R>(work);
+        }
+        work()
     }
 }
 
@@ -81,6 +90,10 @@ impl Lanes for f32 {
     #[inline]
     fn select(m: bool, yes: Self, no: Self) -> Self {
         if m { yes } else { no }
+    }
+    #[inline]
+    fn only(m: bool, x: Self) -> Self {
+        if m { x } else { 0.0 }
     }
     #[inline]
     fn bits(m: bool) -> u32 {

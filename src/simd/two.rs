@@ -13,6 +13,7 @@ impl<I: Isa> Isa for Two<I> {
     type Mask = Pair<I::Mask>;
     type Double = Pair<I::Double>;
     type Group = [I::Group; 2];
+    const FUSED: bool = I::FUSED;
 
     #[inline]
     fn splat(self, x: f32) -> Self::V {
@@ -38,5 +39,16 @@ impl<I: Isa> Isa for Two<I> {
     fn store(self, lanes: Self::V, [low, high]: &mut [I::Group; 2]) {
         self.0.store(lanes.0, low);
         self.0.store(lanes.1, high);
+    }
+    #[inline]
+    fn prefetch(self, [low, high]: &[I::Group; 2], ahead: usize) {
+        self.0.prefetch(low, 2 * ahead);
+        // A line of the cache holds both of AVX2.
+        if size_of::<I::Group>() >= 64 {
+            self.0.prefetch(high, 2 * ahead);
+        }
+    }
+    fn vectorize<Home, R>(self, work: impl FnOnce() -> R) -> R {
+        self.0.vectorize::<Home, R>(work)
     }
 }

@@ -1,10 +1,10 @@
 //! `p(theta) = 1/Theta`: uniform in the angle at the emitter, so proportional to `1/r^2`.
 
-use crate::density::{self, Density, Drawn, Pdf};
-use crate::geometry::{BIAS, Geometry, Point};
+use crate::density::{self, Density, Drawn, Pdf, SetUp};
+use crate::geometry::{Angle, BIAS, Geometry, Point, RayLanes};
 use crate::integrand::MediumLanes;
 use crate::simd::math::tan;
-use crate::simd::{Isa, Lanes, none};
+use crate::simd::{Isa, Lanes, Records, none};
 
 pub(crate) struct Kind;
 
@@ -12,6 +12,7 @@ impl density::Kind for Kind {
     type On<I: Isa> = EquiAngular<I>;
 }
 
+#[derive(Clone, Copy)]
 pub(crate) struct EquiAngular<I: Isa> {
     /// `Theta` \[rad\].
     subtended: I::V,
@@ -23,26 +24,33 @@ pub(crate) struct EquiAngular<I: Isa> {
 const WIDEST: f32 = core::f32::consts::FRAC_PI_2 / (0.5 + BIAS);
 
 impl<I: Isa> Density<I> for EquiAngular<I> {
+    const COSINE: bool = false;
+    type Place = Angle<I>;
+    type SetUps = Records<SetUp<I, Self>>;
+
     #[cfg_attr(optimized, inline(always))]
-    fn new(isa: I, geometry: &Geometry<I>, _: &MediumLanes<I>) -> Self {
+    fn new(isa: I, _: &RayLanes<I>, geometry: Geometry<'_, I>, _: &MediumLanes<I>) -> (Self, I::Mask) {
         let half = isa.splat(0.5);
         let subtended = geometry.subtended(isa);
         let turn = I::V::select(subtended.lt(isa.splat(WIDEST)), half + geometry.bias_to_a(isa), half);
-        Self { subtended, turn }
+        (Self { subtended, turn }, geometry.lit_by_angle(isa, subtended))
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn invert(&self, isa: I, geometry: &Geometry<I>, u: I::V) -> Drawn<I> {
-        let rest = isa.splat(1.0) - u;
+    fn invert(&self, isa: I, _: Geometry<'_, I>, u: I::V) -> Angle<I> {
         let from_a = u.le(self.turn);
-        let tan_half = tan(isa, isa.splat(0.5) * self.subtended * I::V::select(from_a, u, rest));
-        let point = geometry.point_at_angle(isa, from_a, tan_half);
-        let pdf = self.pdf(isa, geometry, &point);
-        Drawn { point, pdf, bisected: none(isa) }
+        let share = I::V::select(from_a, u, isa.splat(1.0) - u);
+        Angle { from_a, tan_half: tan(isa, isa.splat(0.5) * self.subtended * share) }
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn pdf(&self, isa: I, geometry: &Geometry<I>, point: &Point<I>) -> Pdf<I> {
-        Pdf::over_angle(isa.splat(1.0) / self.subtended, geometry, point)
+    fn point(&self, isa: I, geometry: Geometry<'_, I>, angle: &Angle<I>) -> Drawn<I> {
+        let point = geometry.point_at_angle(isa, angle);
+        Drawn { point, pdf: self.pdf(isa, geometry, &point), bisected: none(isa) }
+    }
+
+    #[cfg_attr(optimized, inline(always))]
+    fn pdf(&self, isa: I, geometry: Geometry<'_, I>, point: &Point<I>) -> Pdf<I> {
+        Pdf::over_angle(isa.splat(1.0), self.subtended, geometry, point)
     }
 }

@@ -3,11 +3,11 @@
 //! With `S = alpha sin theta - beta cos theta`, an antiderivative of N, the CDF from an end is `D = S - S_e` over the
 //! mass `S_b - S_a`, and `N^2 = N_e^2 - D (2 S_e + D)`. The angle from that end has `tan(delta/2) = D / (N + N_e)`.
 
-use crate::density::{self, Density, Drawn, Pdf};
-use crate::geometry::{Geometry, Point};
+use crate::density::{self, Density, Drawn, Pdf, SetUp};
+use crate::geometry::{Angle, Geometry, Point, RayLanes};
 use crate::integrand::MediumLanes;
 use crate::simd::math::tan;
-use crate::simd::{Isa, Lanes, Number, none};
+use crate::simd::{Isa, Lanes, Number, Records, none};
 
 pub(crate) struct Kind;
 
@@ -15,8 +15,12 @@ impl density::Kind for Kind {
     type On<I: Isa> = PointNormal<I>;
 }
 
+#[derive(Clone, Copy)]
 pub(crate) struct PointNormal<I: Isa> {
-    /// `S` at the ends, counted towards the interval.
+    /// N at the ends.
+    n_a: I::V,
+    n_b: I::V,
+    /// `S` there, counted towards the interval.
     s_a: I::V,
     s_b: I::V,
     /// The integral of N over `theta`; without a normal the angle itself.
@@ -51,50 +55,54 @@ const LARGE: f32 = (1u64 << 60) as f32;
 pub(crate) const NEAREST: f32 = 1e-12;
 
 impl<I: Isa> Density<I> for PointNormal<I> {
+    const COSINE: bool = true;
+    type Place = Angle<I>;
+    type SetUps = Records<SetUp<I, Self>>;
+
     #[cfg_attr(optimized, inline(always))]
-    fn new(isa: I, geometry: &Geometry<I>, _: &MediumLanes<I>) -> Self {
+    fn new(isa: I, _: &RayLanes<I>, geometry: Geometry<'_, I>, _: &MediumLanes<I>) -> (Self, I::Mask) {
         let g = geometry;
-        let [s_a, s_b] = [g.antiderivative(&g.a), g.antiderivative(&g.b)];
+        let ends = g.ends(isa);
+        let ([n_a, n_b], [s_a, s_b]) = (ends.n, g.antiderivatives(&ends));
         let dot = g.dot_of_ends();
-        let tan_half = (g.h * g.length) / g.a.r.mul_add(g.b.r, dot);
+        let tan_half = (g.foot.h * g.lit.length) / ends.r[0].mul_add(ends.r[1], dot);
         let wide = dot.lt(isa.splat(0.0));
-        let mut mass = mass_of_cosine::<I>([g.a.n, g.b.n], [s_a, s_b], tan_half, wide);
+        let mut mass = mass_of_cosine::<I>([n_a, n_b], [s_a, s_b], tan_half, wide);
         // The mass of half of the angle, were N straight between the ends; from a dark end half of the mass is most of it.
         // It is not where the interval is wide, but there half of the mass is within a right angle of either end.
-        let sum = g.a.n + g.b.n;
-        let half_way = (g.a.n + g.a.n + sum) / (isa.splat(4.0) * sum);
+        let sum = n_a + n_b;
+        let half_way = (n_a + n_a + sum) / (isa.splat(4.0) * sum);
         let turn = I::V::select(wide, isa.splat(0.5), half_way + g.bias_to_a(isa));
-        if I::V::bits(!g.has_normal) != 0 {
-            mass = I::V::select(g.has_normal, mass, g.subtended(isa));
+        if I::V::bits(!g.cosine.has_normal) != 0 {
+            mass = I::V::select(g.cosine.has_normal, mass, g.subtended(isa));
         }
-        Self { s_a, s_b: -s_b, mass, turn }
+        let lit = g.lit(isa) & g.bright(isa, &ends);
+        (Self { n_a, n_b, s_a, s_b: -s_b, mass, turn }, lit)
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn invert(&self, isa: I, geometry: &Geometry<I>, u: I::V) -> Drawn<I> {
-        let g = geometry;
+    fn invert(&self, isa: I, geometry: Geometry<'_, I>, u: I::V) -> Angle<I> {
         let rest = isa.splat(1.0) - u;
         let from_a = u.le(self.turn);
         // Off the very end, where N may be 0.
         let mass = self.mass * I::V::select(from_a, u, rest).max(isa.splat(NEAREST));
-        let n_end = I::V::select(from_a, g.a.n, g.b.n);
+        let n_end = I::V::select(from_a, self.n_a, self.n_b);
         let s_end = I::V::select(from_a, self.s_a, self.s_b);
         let mut tan_half = tan_half_at_mass(isa, n_end, s_end, mass);
-        if I::V::bits(!g.has_normal) != 0 {
-            tan_half = I::V::select(g.has_normal, tan_half, tan(isa, isa.splat(0.5) * mass));
+        if I::V::bits(!geometry.cosine.has_normal) != 0 {
+            tan_half = I::V::select(geometry.cosine.has_normal, tan_half, tan(isa, isa.splat(0.5) * mass));
         }
-        let point = g.point_at_angle(isa, from_a, tan_half);
-        let pdf = self.pdf(isa, g, &point);
-        Drawn { point, pdf, bisected: none(isa) }
+        Angle { from_a, tan_half }
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn lit(isa: I, geometry: &Geometry<I>) -> I::Mask {
-        geometry.lit & geometry.bright(isa)
+    fn point(&self, isa: I, geometry: Geometry<'_, I>, angle: &Angle<I>) -> Drawn<I> {
+        let point = geometry.point_at_angle(isa, angle);
+        Drawn { point, pdf: self.pdf(isa, geometry, &point), bisected: none(isa) }
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn pdf(&self, isa: I, geometry: &Geometry<I>, point: &Point<I>) -> Pdf<I> {
-        Pdf::over_angle(geometry.cosine(isa, point) / self.mass, geometry, point)
+    fn pdf(&self, isa: I, geometry: Geometry<'_, I>, point: &Point<I>) -> Pdf<I> {
+        Pdf::over_angle(geometry.cosine(isa, point), self.mass, geometry, point)
     }
 }

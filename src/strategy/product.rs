@@ -11,11 +11,11 @@
 
 pub(crate) mod knots;
 
-use crate::density::{Density, Drawn, Pdf};
-use crate::geometry::{End, Geometry, Point};
+use crate::density::{Density, Drawn, Pdf, SetUp};
+use crate::geometry::{Geometry, Point, RayLanes};
 use crate::integrand::{Lobe, MediumLanes, transmittance};
 use crate::simd::math::{one_minus_exp, reciprocal};
-use crate::simd::{Isa, Lanes, Number, none};
+use crate::simd::{Isa, Lanes, Number, Records, none};
 
 /// `0.65 x + 0.175 (1 - cos(pi x))` at `x = k/16`; with fewer knots every second, fourth or eighth.
 const KNOTS: [f32; 17] = [
@@ -55,10 +55,13 @@ const LEAST: f32 = 0.5;
 /// No length is resolved below this \[m\].
 const SHORTEST: f32 = 1e-18;
 
+#[derive(Clone, Copy)]
 pub(crate) struct Product<I: Isa, const K: usize> {
-    /// `X` at the ends.
+    /// `r` at the ends.
+    r_a: I::V,
+    r_b: I::V,
+    /// `X` at the start.
     x_a: I::V,
-    x_b: I::V,
     /// `h/X` there.
     h_x_a: I::V,
     h_x_b: I::V,
@@ -73,6 +76,14 @@ pub(crate) struct Product<I: Isa, const K: usize> {
     f: [I::V; K],
     /// The integral of the integrand over `mu_s (1 - g^2)/(4 pi)` and the transmittance at the start.
     mass: I::V,
+}
+
+/// Where a variate leads: `v`, `1 - v`, and the density over `v`.
+#[derive(Clone, Copy)]
+pub(crate) struct Place<I: Isa> {
+    v: I::V,
+    rest: I::V,
+    p_v: I::V,
 }
 
 /// Where `v` lies between two knots.
@@ -131,10 +142,9 @@ impl<I: Isa, const K: usize> Product<I, K> {
 
     /// The line's values at the knots, of the integrand's where it is looked at.
     #[cfg_attr(optimized, inline(always))]
-    fn line(isa: I, geometry: &Geometry<I>, seen: &[I::V; K]) -> [I::V; K] {
+    fn line(isa: I, [dark_a, dark_b]: [I::Mask; 2], seen: &[I::V; K]) -> [I::V; K] {
         let c = |x| isa.splat(x);
         let mut f = *seen;
-        let [dark_a, dark_b] = geometry.dark_ends(isa, DARK);
         f[0] = Self::extended(isa, dark_a, seen[0], seen[1]);
         f[K - 1] = Self::extended(isa, dark_b, seen[K - 1], seen[K - 2]);
         let mut i = 1;
@@ -182,8 +192,14 @@ impl<I: Isa, const K: usize> Product<I, K> {
 
     /// The integral of the integrand, as the knots have it \[1/m^2\].
     #[cfg_attr(optimized, inline(always))]
-    pub(crate) fn radiance(&self, isa: I, geometry: &Geometry<I>, medium: &MediumLanes<I>) -> I::V {
-        let start = transmittance(isa, geometry, medium, &geometry.start());
+    pub(crate) fn radiance(
+        &self,
+        isa: I,
+        ray: &RayLanes<I>,
+        geometry: Geometry<'_, I>,
+        medium: &MediumLanes<I>,
+    ) -> I::V {
+        let start = transmittance(isa, ray, geometry, medium, &geometry.start(isa, self.r_a));
         medium.mu_s * start * (medium.lobe.height * self.mass)
     }
 
@@ -198,25 +214,31 @@ impl<I: Isa, const K: usize> Product<I, K> {
 
 /// `X` at an end without cancellation, and `h/X`, of one division.
 #[cfg_attr(optimized, inline(always))]
-fn x_and_h_over_it<I: Isa>(isa: I, geometry: &Geometry<I>, inv_h: I::V, end: &End<I>) -> (I::V, I::V) {
-    let (h, forward) = (geometry.h, isa.splat(0.0).lt(end.t_prime));
-    let long = end.r + end.t_prime.abs();
+fn x_and_h_over_it<I: Isa>(isa: I, h: I::V, inv_h: I::V, t_prime: I::V, r: I::V) -> (I::V, I::V) {
+    let forward = isa.splat(0.0).lt(t_prime);
+    let long = r + t_prime.abs();
     let short = h / long;
     (I::V::select(forward, long, h * short), I::V::select(forward, short, long * inv_h))
 }
 
 impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
+    const COSINE: bool = true;
+    type Place = Place<I>;
+    type SetUps = Records<SetUp<I, Self>>;
+
     #[cfg_attr(optimized, inline(always))]
-    fn new(isa: I, geometry: &Geometry<I>, medium: &MediumLanes<I>) -> Self {
+    fn new(isa: I, _: &RayLanes<I>, geometry: Geometry<'_, I>, medium: &MediumLanes<I>) -> (Self, I::Mask) {
         let c = |x| isa.splat(x);
         let (g, one) = (geometry, c(1.0));
         let Lobe { a2, b2, b_over_a, .. } = medium.lobe;
 
-        let inv_h = one / g.h;
-        let (x_a, h_x_a) = x_and_h_over_it(isa, g, inv_h, &g.a);
-        let (x_b, h_x_b) = x_and_h_over_it(isa, g, inv_h, &g.b);
-        let y_b = g.length * ((x_a + x_b) / (g.a.r + g.b.r));
-        let reach = x_a.mul_add(c(1.5), c(1.25) * g.h * b_over_a);
+        let (ends, h) = (g.ends(isa), g.foot.h);
+        let [r_a, r_b] = ends.r;
+        let inv_h = one / h;
+        let (x_a, h_x_a) = x_and_h_over_it(isa, h, inv_h, g.foot.a, r_a);
+        let (x_b, h_x_b) = x_and_h_over_it(isa, h, inv_h, g.foot.b, r_b);
+        let y_b = g.lit.length * ((x_a + x_b) / (r_a + r_b));
+        let reach = x_a.mul_add(c(1.5), c(1.25) * h * b_over_a);
         let inv_y_c = medium.mu_t.mul_add(c(0.45), one / reach).min(c(1.0 / SHORTEST));
         let y_c = one / inv_y_c;
         let e = y_c / y_b;
@@ -224,14 +246,14 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
         let w_0 = one / (one + e);
 
         // At a knot P, Q stand for h, X, in a scale of their own that keeps their powers within f32.
-        let (h_c, x_c) = (g.h * inv_y_c, x_a * inv_y_c);
+        let (h_c, x_c) = (h * inv_y_c, x_a * inv_y_c);
         let scale = one / h_c.max(x_c).max(one);
         let (h_c, x_c) = (h_c * scale, x_c * scale);
         let (h_c, x_c, y_c_c) = (w_0 * h_c, w_0 * x_c, w_0 * scale);
         // m = n.(x - y) in units of the end where N is smaller.
-        let rising = c(0.0).le(g.beta);
-        let m_end = w_0 * I::V::select(rising, g.a.m, g.b.m) * inv_y_c;
-        let half_beta = c(0.5) * g.beta.abs() * I::V::select(rising, w_0, inv_e);
+        let rising = c(0.0).le(g.cosine.beta);
+        let m_end = w_0 * I::V::select(rising, g.cosine.m_a, g.cosine.m_b) * inv_y_c;
+        let half_beta = c(0.5) * g.cosine.beta.abs() * I::V::select(rising, w_0, inv_e);
         let h_x = I::V::select(rising, h_x_a, h_x_b);
 
         let mut seen = [one; K];
@@ -240,8 +262,7 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
             let v = c(Self::SEEN[k]);
             let to_1 = c(Self::TO_1[k]);
             let rest = e + to_1;
-            let depth = medium.mu_t * y_c * (v / rest);
-            let (_, transmittance) = one_minus_exp(isa, depth);
+            let (_, transmittance) = one_minus_exp(isa, medium.mu_t * y_c * (v / rest));
 
             let p = h_c * rest;
             let q = x_c.mul_add(rest, y_c_c * v);
@@ -250,11 +271,11 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
             let p2 = p * p;
             let s_1 = q.mul_add(q, p2).max(c(1e-18));
             let s_2 = (a2 * q).mul_add(q, b2 * p2).max(c(1e-18));
-            let numerator = I::V::select(g.has_normal, m.max(c(0.0)), s_1);
+            let numerator = I::V::select(g.cosine.has_normal, m.max(c(0.0)), s_1);
             seen[k] = transmittance * numerator / (s_2 * (s_1 * s_2).sqrt());
             k += 1;
         }
-        let mut f = Self::line(isa, g, &seen);
+        let mut f = Self::line(isa, g.dark_ends(isa, &ends, DARK), &seen);
 
         let mut mass = c(0.0);
         let mut k = 1;
@@ -271,14 +292,16 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
             k += 1;
         }
         // f stands for the integrand over v times this.
-        let unit = scale * scale * (w_0 * inv_y_c) * I::V::select(g.has_normal, c(4.0) * scale, c(2.0));
-        Self { x_a, x_b, h_x_a, h_x_b, y_c, inv_y_c, e, inv_e, w_0, f, mass: I::V::select(usable, mass, c(0.0)) * unit }
+        let unit = scale * scale * (w_0 * inv_y_c) * I::V::select(g.cosine.has_normal, c(4.0) * scale, c(2.0));
+        let mass = I::V::only(usable, mass) * unit;
+        let density = Self { r_a, r_b, x_a, h_x_a, h_x_b, y_c, inv_y_c, e, inv_e, w_0, f, mass };
+        (density, g.lit(isa) & g.bright(isa, &ends))
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn invert(&self, isa: I, geometry: &Geometry<I>, u: I::V) -> Drawn<I> {
+    fn invert(&self, isa: I, _: Geometry<'_, I>, u: I::V) -> Place<I> {
         let c = |x| isa.splat(x);
-        let (g, one) = (geometry, c(1.0));
+        let one = c(1.0);
         let (segment, below) = self.segment(isa, |_, cdf| cdf.le(u));
         let Segment { f_0, f_1, v_0, width } = segment;
         let (g_0, g_1, area) = (width * f_0, width * f_1, u - below);
@@ -289,45 +312,47 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
         let left = one - tau;
         let p_v = tau.mul_add(f_1, left * f_0);
         let v = tau.mul_add(width, v_0);
-        let rest = left.mul_add(width, one - (v_0 + width));
+        Place { v, rest: left.mul_add(width, one - (v_0 + width)), p_v }
+    }
 
+    #[cfg_attr(optimized, inline(always))]
+    fn point(&self, isa: I, geometry: Geometry<'_, I>, place: &Place<I>) -> Drawn<I> {
+        let c = |x| isa.splat(x);
+        let (g, h, one) = (geometry, geometry.foot.h, c(1.0));
+        let Place { v, rest, p_v } = *place;
         let y_rest = self.y_c / (self.e + rest);
         let y = y_rest * v;
         let to_y_b = y_rest * rest * (one + self.inv_e);
         let x = self.x_a + y;
-        let h_x = g.h / x;
+        let h_x = h / x;
         let half = c(0.5);
-        let from_a = (half * y * self.h_x_a.mul_add(h_x, one)).min(g.length);
-        let to_b = (half * to_y_b * self.h_x_b.mul_add(h_x, one)).min(g.length);
-        let r = half * g.h.mul_add(h_x, x);
+        let from_a = (half * y * self.h_x_a.mul_add(h_x, one)).min(g.lit.length);
+        let to_b = (half * to_y_b * self.h_x_b.mul_add(h_x, one)).min(g.lit.length);
+        let r = half * h.mul_add(h_x, x);
         // t' from where the least cancels: X, or an end.
-        let (scale_a, scale_b) = (g.a.t_prime.abs() + from_a, g.b.t_prime.abs() + to_b);
-        let by_end = I::V::select(scale_a.lt(scale_b), g.a.t_prime + from_a, g.b.t_prime - to_b);
-        let by_x = half * (x - g.h * h_x);
+        let (scale_a, scale_b) = (g.foot.a.abs() + from_a, g.foot.b.abs() + to_b);
+        let by_end = I::V::select(scale_a.lt(scale_b), g.foot.a + from_a, g.foot.b - to_b);
+        let by_x = half * (x - h * h_x);
         let near_end = scale_a.min(scale_b).lt(r);
-        let t_prime = I::V::select(near_end, by_end, by_x).max(g.a.t_prime).min(g.b.t_prime);
+        let t_prime = I::V::select(near_end, by_end, by_x).max(g.foot.a).min(g.foot.b);
         let point = g.as_rounded(g.point_between(isa, from_a, to_b, t_prime), r);
         let s = (self.e + rest) * self.w_0;
         let pdf = self.pdf_over_v(isa, p_v, s, x, r);
         Drawn { point, pdf, bisected: none(isa) }
     }
 
-    #[cfg_attr(optimized, inline(always))]
-    fn lit(isa: I, geometry: &Geometry<I>) -> I::Mask {
-        geometry.lit & geometry.bright(isa)
-    }
-
     /// In f64, from the geometry to the place between two knots and back: a dozen roundings, which the slope of the density
     /// multiplies, would be most of the error.
     #[cfg_attr(optimized, inline(always))]
-    fn pdf(&self, isa: I, geometry: &Geometry<I>, point: &Point<I>) -> Pdf<I> {
+    fn pdf(&self, isa: I, geometry: Geometry<'_, I>, point: &Point<I>) -> Pdf<I> {
         let c = |x| isa.splat(x);
         let g = geometry;
-        let (x, r) = g.exact_x_and_r(isa, point);
-        let over_a = reciprocal(isa, g.a.r.widen() + r);
-        let over_b = reciprocal(isa, g.b.r.widen() + r);
-        let y = g.way_from_a(isa, point).widen() * ((self.x_a.widen() + x) * over_a);
-        let to_y_b = g.way_to_b(isa, point).widen() * ((self.x_b.widen() + x) * over_b);
+        let (x, r) = g.foot.exact_x_and_r(isa, point);
+        let [(x_a, r_a), (x_b, r_b)] = g.exact_ends(isa, [self.r_a, self.r_b]);
+        let over_a = reciprocal(isa, r_a + r);
+        let over_b = reciprocal(isa, r_b + r);
+        let y = g.way_from_a(isa, point.t).widen() * ((x_a + x) * over_a);
+        let to_y_b = g.way_to_b(isa, point.t).widen() * ((x_b + x) * over_b);
         let (y_c, e) = (self.y_c.widen(), self.e.widen());
         let over_sum = reciprocal(isa, y + y_c);
         let turn = (e + isa.splat_double(1.0)) * over_sum;

@@ -11,13 +11,13 @@
 //! The angle may be mirrored (backward scattering, `g < 0`): then `theta` runs from `b` to `a`.
 
 use super::point_normal::{NEAREST, mass_of_cosine, tan_half_at_mass};
-use crate::density::{Density, Drawn, Pdf};
+use crate::density::{Density, Drawn, Pdf, SetUp};
 use crate::expansion::{Expanded, ORDER};
-use crate::geometry::{Geometry, Point};
+use crate::geometry::{Angle, Geometry, Point, RayLanes};
 use crate::integrand::MediumLanes;
 use crate::inversion::{At, solve};
 use crate::simd::math::{SIN, horner, horner_lanes, sin_cos, tan};
-use crate::simd::{Double, Isa, Lanes, Number};
+use crate::simd::{Double, Isa, Lanes, Number, Records};
 use core::marker::PhantomData;
 
 /// The order of the local polynomial of N; odd, as that of the product: even and odd terms are summed in pairs.
@@ -29,11 +29,12 @@ const PRODUCT_ORDER: usize = ORDER + COSINE_ORDER;
 const _: () = assert!(COSINE_ORDER % 2 == 1 && PRODUCT_ORDER % 2 == 1);
 
 /// A Taylor polynomial of one factor of the integrand.
-pub(crate) trait Expansion<I: Isa> {
+pub(crate) trait Expansion<I: Isa>: Copy {
     /// The polynomial of a lane group's rays and media.
-    fn expand(isa: I, geometry: &Geometry<I>, medium: &MediumLanes<I>) -> Expanded<I>;
+    fn expand(isa: I, geometry: Geometry<'_, I>, medium: &MediumLanes<I>) -> Expanded<I>;
 }
 
+#[derive(Clone, Copy)]
 pub(crate) struct Taylor<I: Isa, E> {
     /// `P` in the angle `theta`, mirrored where the lane is; its terms cancel near `theta_c`.
     p: [I::Double; ORDER + 1],
@@ -63,23 +64,38 @@ pub(crate) struct Taylor<I: Isa, E> {
     mass_2: I::V,
     /// `P(theta_c)`, the constant of the second piece.
     p_c: I::V,
+    /// Which lanes are worth the iteration.
+    wanted: I::Mask,
     expansion: PhantomData<E>,
 }
 
+/// Where a variate leads.
+#[derive(Clone, Copy)]
+pub(crate) struct Place<I: Isa> {
+    angle: Angle<I>,
+    /// The (mirrored) angle from the foot of the perpendicular, or one beyond `theta_c` where it is that.
+    theta: I::Double,
+    bisected: I::Mask,
+}
+
 impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
+    const COSINE: bool = true;
+    type Place = Place<I>;
+    type SetUps = Records<SetUp<I, Self>, 2>;
+
     #[cfg_attr(optimized, inline(always))]
-    fn new(isa: I, geometry: &Geometry<I>, medium: &MediumLanes<I>) -> Self {
+    fn new(isa: I, _: &RayLanes<I>, geometry: Geometry<'_, I>, medium: &MediumLanes<I>) -> (Self, I::Mask) {
         let c = |x| isa.splat(x);
         let g = geometry;
         let Expanded { p, theta_c, p_c, mirrored } = E::expand(isa, g, medium);
 
         // The ends in the order of the angle that is expanded.
         let pick = |a: I::V, b: I::V| I::V::select(mirrored, b, a);
-        let start_t_prime = pick(g.a.t_prime, -g.b.t_prime);
-        let (n_a, n_b) = (pick(g.a.n, g.b.n), pick(g.b.n, g.a.n));
-        let (s_a, s_b) = (g.antiderivative(&g.a), -g.antiderivative(&g.b));
-        let (s_a, s_b) = (pick(s_a, s_b), pick(s_b, s_a));
-        let theta_a = angle(isa, start_t_prime, g.h);
+        let start_t_prime = pick(g.foot.a, -g.foot.b);
+        let ends = g.ends(isa);
+        let ([n_a, n_b], [s_a, s_b]) = (ends.n, g.antiderivatives(&ends));
+        let (n_a, n_b, s_a, s_b) = (pick(n_a, n_b), pick(n_b, n_a), pick(s_a, -s_b), pick(-s_b, s_a));
+        let theta_a = angle(isa, start_t_prime, g.foot.h);
         let subtended = g.subtended(isa);
         let width = I::V::narrow(theta_c - theta_a).max(c(0.0)).min(subtended);
         let half = width * c(0.5);
@@ -92,9 +108,9 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
         let (n_c, s_c) = (n_m.mul_add(cos, -(s_m * sin)), n_m.mul_add(sin, s_m * cos));
         let n_c = n_c.max(c(0.0));
         // N' = -S.
-        let n_m = I::V::select(g.has_normal, n_m, c(1.0));
-        let slope_m = I::V::select(g.has_normal, -s_m, c(0.0));
-        let wave = I::V::select(g.has_normal, half, c(0.0));
+        let n_m = I::V::select(g.cosine.has_normal, n_m, c(1.0));
+        let slope_m = I::V::only(g.cosine.has_normal, -s_m);
+        let wave = I::V::only(g.cosine.has_normal, half);
 
         let product = I::V::multiply(&shift::<I>(p, middle, half), &cosine_series(isa, n_m, slope_m, wave));
         let integral = integrate(isa, &product);
@@ -113,9 +129,10 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
         let right_angle = c(core::f32::consts::FRAC_PI_2);
         let tan_half = tan(isa, rest.min(right_angle) * c(0.5));
         let cosines = mass_of_cosine::<I>([n_c, n_b], [s_c, -s_b], tan_half, right_angle.lt(rest));
-        let mass_2 = p_c * I::V::select(g.has_normal, cosines, rest);
+        let mass_2 = p_c * I::V::select(g.cosine.has_normal, cosines, rest);
 
-        Self {
+        let lit = g.lit(isa) & g.bright(isa, &ends);
+        let density = Self {
             p,
             theta_c,
             mirrored,
@@ -135,12 +152,14 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
             mass_1,
             mass_2,
             p_c,
+            wanted: lit & g.foot.valid,
             expansion: PhantomData,
-        }
+        };
+        (density, lit)
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn invert(&self, isa: I, geometry: &Geometry<I>, u: I::V) -> Drawn<I> {
+    fn invert(&self, isa: I, geometry: Geometry<'_, I>, u: I::V) -> Place<I> {
         let c = |x| isa.splat(x);
         let g = geometry;
         let rest = c(1.0) - u;
@@ -157,7 +176,7 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
         let value = share.mul_add(self.scale, self.below);
         let start = self.first_guess(isa, share, value);
         let start = I::V::select(below, start, c(1.0));
-        let wanted = below & g.lit & g.valid;
+        let wanted = below & self.wanted;
         let root = solve(
             isa,
             #[cfg_attr(optimized, inline(always))]
@@ -187,32 +206,31 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
         let s_end = I::V::select(by_start, self.s_c, self.s_b);
         let by_cosines = tan_half_at_mass(isa, n_end, s_end, cosines);
         // tan of a sum: the first piece comes before.
-        let before = I::V::select(by_start, tan(isa, self.half), c(0.0));
+        let before = I::V::only(by_start, tan(isa, self.half));
         let by_cosines = (by_cosines + before) / (c(1.0) - by_cosines * before);
 
         let to_end = self.subtended - delta;
         let near_start = (first & delta.lt(to_end)) | by_start;
-        let uniform = cosines + I::V::select(by_start, width, c(0.0));
+        let uniform = cosines + I::V::only(by_start, width);
         let nearest = I::V::select(first, delta.min(to_end), uniform).max(off).min(self.subtended);
         let right_angle = c(core::f32::consts::FRAC_PI_2);
         let by_angle = tan(isa, nearest.min(right_angle) * c(0.5));
-        let tan_half = I::V::select(first | !g.has_normal, by_angle, by_cosines);
+        let tan_half = I::V::select(first | !g.cosine.has_normal, by_angle, by_cosines);
         let from_a = (near_start & !self.mirrored) | (!near_start & self.mirrored);
-        let point = g.point_at_angle(isa, from_a, tan_half);
         let theta = self.theta_a + I::V::select(first, delta, self.subtended).widen();
-        let pdf = self.at(isa, g, &point, theta);
-        Drawn { point, pdf, bisected: root.bisected }
+        Place { angle: Angle { from_a, tan_half }, theta, bisected: root.bisected }
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn lit(isa: I, geometry: &Geometry<I>) -> I::Mask {
-        geometry.lit & geometry.bright(isa)
+    fn point(&self, isa: I, geometry: Geometry<'_, I>, place: &Place<I>) -> Drawn<I> {
+        let point = geometry.point_at_angle(isa, &place.angle);
+        Drawn { point, pdf: self.at(isa, geometry, &point, place.theta), bisected: place.bisected }
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn pdf(&self, isa: I, geometry: &Geometry<I>, point: &Point<I>) -> Pdf<I> {
+    fn pdf(&self, isa: I, geometry: Geometry<'_, I>, point: &Point<I>) -> Pdf<I> {
         let t_prime = I::V::select(self.mirrored, -point.t_prime, point.t_prime);
-        self.at(isa, geometry, point, angle(isa, t_prime, geometry.h))
+        self.at(isa, geometry, point, angle(isa, t_prime, geometry.foot.h))
     }
 }
 
@@ -255,10 +273,9 @@ impl<I: Isa, E> Taylor<I, E> {
 
     /// The density at a point whose (mirrored) angle is `theta`.
     #[cfg_attr(optimized, inline(always))]
-    fn at(&self, isa: I, geometry: &Geometry<I>, point: &Point<I>, theta: I::Double) -> Pdf<I> {
+    fn at(&self, isa: I, geometry: Geometry<'_, I>, point: &Point<I>, theta: I::Double) -> Pdf<I> {
         let p = I::V::narrow(horner_lanes(theta.min(self.theta_c), self.p));
-        let p_theta = p * geometry.cosine(isa, point) / (self.mass_1 + self.mass_2);
-        Pdf::over_angle(p_theta, geometry, point)
+        Pdf::over_angle(p * geometry.cosine(isa, point), self.mass_1 + self.mass_2, geometry, point)
     }
 }
 
@@ -274,7 +291,7 @@ fn angle<I: Isa>(isa: I, t_prime: I::V, h: I::V) -> I::Double {
     let steep = h.lt(size);
     let sign = I::V::select(t_prime.lt(c(0.0)), c(-1.0), c(1.0));
     let less = less * I::V::select(steep, -sign, sign);
-    let quarter = I::V::select(steep, sign, c(0.0)).widen();
+    let quarter = I::V::only(steep, sign).widen();
     let q = (less * one_over).widen();
     // What the rounding left.
     let rest = less.widen() - q * more.widen();

@@ -7,6 +7,7 @@ use crate::geometry::Geometry;
 use crate::integrand::MediumLanes;
 use crate::simd::Isa;
 
+#[derive(Clone, Copy)]
 pub(crate) struct OfPhase;
 
 impl Kind for OfPhase {
@@ -15,7 +16,7 @@ impl Kind for OfPhase {
 
 impl<I: Isa> Expansion<I> for OfPhase {
     #[cfg_attr(optimized, inline(always))]
-    fn expand(_: I, _: &Geometry<I>, medium: &MediumLanes<I>) -> Expanded<I> {
+    fn expand(_: I, _: Geometry<'_, I>, medium: &MediumLanes<I>) -> Expanded<I> {
         medium.phase
     }
 }

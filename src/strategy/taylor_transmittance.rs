@@ -8,6 +8,7 @@ use crate::integrand::MediumLanes;
 use crate::simd::math::horner_double;
 use crate::simd::{Double, Isa, Lanes, none};
 
+#[derive(Clone, Copy)]
 pub(crate) struct OfTransmittance;
 
 impl Kind for OfTransmittance {
@@ -20,8 +21,8 @@ const THICKEST: f64 = 32.0;
 
 impl<I: Isa> Expansion<I> for OfTransmittance {
     #[cfg_attr(optimized, inline(always))]
-    fn expand(isa: I, geometry: &Geometry<I>, medium: &MediumLanes<I>) -> Expanded<I> {
-        let m = (medium.mu_t.widen() * geometry.h.widen()).min(isa.splat_double(THICKEST));
+    fn expand(isa: I, geometry: Geometry<'_, I>, medium: &MediumLanes<I>) -> Expanded<I> {
+        let m = (medium.mu_t.widen() * geometry.foot.h.widen()).min(isa.splat_double(THICKEST));
         let p = [
             isa.splat_double(1.0),
             -m,

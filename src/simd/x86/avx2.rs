@@ -2,7 +2,7 @@
 
 use super::{operators, proven, token};
 use crate::simd::pair::Pair;
-use crate::simd::{Double, Isa, Kernel, Lanes, Number};
+use crate::simd::{Double, Isa, Lanes, Number};
 use core::arch::x86_64::*;
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
@@ -37,6 +37,7 @@ impl Isa for Avx2 {
     type Mask = Mask8;
     type Double = Pair<F64x4>;
     type Group = [f32; 8];
+    const FUSED: bool = true;
 
     #[inline]
     fn splat(self, x: f32) -> F32x8 {
@@ -62,6 +63,15 @@ impl Isa for Avx2 {
     #[inline]
     fn store(self, lanes: F32x8, group: &mut [f32; 8]) {
         proven!(_mm256_storeu_ps(group.as_mut_ptr(), lanes.0));
+    }
+    #[inline]
+    fn prefetch(self, group: &Self::Group, ahead: usize) {
+        // A prefetch does not fault, wherever it points.
+        proven!(_mm_prefetch::<_MM_HINT_T0>(core::ptr::from_ref(group).wrapping_add(ahead).cast()));
+    }
+    fn vectorize<H, R>(self, work: impl FnOnce() -> R) -> R {
+        // SAFETY: `self` proves that the CPU has the features.
+        unsafe { H::vectorized(work) }
     }
 }
 
@@ -116,6 +126,10 @@ impl Lanes for F32x8 {
     #[inline]
     fn select(m: Mask8, yes: Self, no: Self) -> Self {
         Self(proven!(_mm256_blendv_ps(no.0, yes.0, m.0)))
+    }
+    #[inline]
+    fn only(m: Mask8, x: Self) -> Self {
+        Self(proven!(_mm256_and_ps(m.0, x.0)))
     }
     #[inline]
     fn bits(m: Mask8) -> u32 {

@@ -2,7 +2,7 @@
 
 use super::{operators, proven, token};
 use crate::simd::pair::Pair;
-use crate::simd::{Double, Isa, Kernel, Lanes, Number};
+use crate::simd::{Double, Isa, Lanes, Number};
 use core::arch::x86_64::*;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -25,6 +25,7 @@ impl Isa for Avx512 {
     type Mask = __mmask16;
     type Double = Pair<F64x8>;
     type Group = [f32; 16];
+    const FUSED: bool = true;
 
     #[inline]
     fn splat(self, x: f32) -> F32x16 {
@@ -50,6 +51,15 @@ impl Isa for Avx512 {
     #[inline]
     fn store(self, lanes: F32x16, group: &mut [f32; 16]) {
         proven!(_mm512_storeu_ps(group.as_mut_ptr(), lanes.0));
+    }
+    #[inline]
+    fn prefetch(self, group: &Self::Group, ahead: usize) {
+        // A prefetch does not fault, wherever it points.
+        proven!(_mm_prefetch::<_MM_HINT_T0>(core::ptr::from_ref(group).wrapping_add(ahead).cast()));
+    }
+    fn vectorize<H, R>(self, work: impl FnOnce() -> R) -> R {
+        // SAFETY: `self` proves that the CPU has the features.
+        unsafe { H::vectorized(work) }
     }
 }
 
@@ -104,6 +114,10 @@ impl Lanes for F32x16 {
     #[inline]
     fn select(m: __mmask16, yes: Self, no: Self) -> Self {
         Self(proven!(_mm512_mask_blend_ps(m, no.0, yes.0)))
+    }
+    #[inline]
+    fn only(m: __mmask16, x: Self) -> Self {
+        Self(proven!(_mm512_maskz_mov_ps(m, x.0)))
     }
     #[inline]
     fn bits(m: __mmask16) -> u32 {

@@ -1,0 +1,69 @@
+//! What a pass over a block of lane groups hands on to the next: a record for each group, on the stack.
+
+use core::mem::MaybeUninit;
+
+/// No block has more lane groups.
+pub(crate) const GROUPS: usize = 16;
+
+/// Place for the records of a block of at most `N` groups. It is not written to before a pass writes: zeros would cost a
+/// small batch more than its samples do.
+pub(crate) struct Records<T, const N: usize = GROUPS>([MaybeUninit<T>; N]);
+
+/// Place for records, of whatever size.
+pub(crate) trait Room<T> {
+    /// How many there are places for.
+    const SIZE: usize;
+
+    fn new() -> Self;
+
+    /// The first `count` records, as `make` makes them, one after the other.
+    fn fill(&mut self, count: usize, make: impl FnMut(usize) -> T) -> &mut [T];
+}
+
+impl<T: Copy, const N: usize> Room<T> for Records<T, N> {
+    const SIZE: usize = N;
+
+    #[cfg_attr(optimized, inline(always))]
+    fn new() -> Self {
+        Self([const { MaybeUninit::uninit() }; N])
+    }
+
+    #[cfg_attr(optimized, inline(always))]
+    fn fill(&mut self, count: usize, mut make: impl FnMut(usize) -> T) -> &mut [T] {
+        let mut records = self.start();
+        for index in 0..count {
+            records.push(make(index));
+        }
+        records.done()
+    }
+}
+
+impl<T: Copy, const N: usize> Records<T, N> {
+    /// No records, to which some are added.
+    #[cfg_attr(optimized, inline(always))]
+    pub(crate) fn start(&mut self) -> Started<'_, T> {
+        Started { records: &mut self.0, count: 0 }
+    }
+}
+
+/// Records of which the first ones are written.
+pub(crate) struct Started<'r, T> {
+    records: &'r mut [MaybeUninit<T>],
+    count: usize,
+}
+
+impl<'r, T: Copy> Started<'r, T> {
+    #[cfg_attr(optimized, inline(always))]
+    pub(crate) fn push(&mut self, record: T) {
+        self.records[self.count].write(record);
+        self.count += 1;
+    }
+
+    /// All that were added.
+    #[cfg_attr(optimized, inline(always))]
+    pub(crate) fn done(self) -> &'r mut [T] {
+        let records = &mut self.records[..self.count];
+        // SAFETY: `push` has written each of them, and `MaybeUninit<T>` lies in memory as `T` does.
+        unsafe { &mut *(core::ptr::from_mut(records) as *mut [T]) }
+    }
+}
