@@ -20,7 +20,7 @@ objdump --disassemble --demangle --no-show-raw-insn "$binary" | awk '
         isa = ""
         if (name ~ /::avx2::Home.*::vectorized/) isa = "avx2"
         if (name ~ /::avx512::Home.*::vectorized/) isa = "avx512"
-        if (name ~ /::simd::Home.*::portable/) isa = "portable"
+        if (name ~ /::portable::Home.*::apart/) isa = "portable"
         if (isa != "") { kernels[isa]++ }
     }
     isa == "" { next }
@@ -29,13 +29,12 @@ objdump --disassemble --demangle --no-show-raw-insn "$binary" | awk '
     /vfn?m(add|sub)[0-9]+p[sd] .*%zmm/ { wide["avx512"] += isa == "avx512" }
     /vfn?m(add|sub)[0-9]+p[sd] .*%ymm/ { wide["avx2"] += isa == "avx2" }
 
-    # Direct calls; those to the standard library go through a table. What may be called is what ends the program, what
-    # copies lanes, and what collects those of several variates.
+    # Direct calls; those to the standard library go through a table. What may be called is what ends the program, and what
+    # copies lanes.
     /\tcall +[0-9a-f]+ </ {
         callee = $0
         sub(/.*\tcall +[0-9a-f]+ </, "", callee)
         sub(/>$/, "", callee)
-        if (callee ~ /Turn>?::(gather|scatter)$/) next
         if (callee ~ /core::panicking|_index_fail|len_mismatch_fail|mem(cpy|move|set)/) next
         outlined[callee " (called by a kernel of " isa ")"]++
     }
