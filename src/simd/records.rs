@@ -2,8 +2,9 @@
 
 use core::mem::MaybeUninit;
 
-/// No block has more lane groups.
-pub(crate) const GROUPS: usize = 16;
+/// No block has more lane groups. An unoptimised build keeps every temporary in a place of its own: large blocks would be
+/// larger than a stack.
+pub(crate) const GROUPS: usize = if cfg!(optimized) { 16 } else { 2 };
 
 /// Place for the records of a block of at most `N` groups. It is not written to before a pass writes: zeros would cost a
 /// small batch more than its samples do.
