@@ -8,17 +8,20 @@
 //! near = t_min - m(t_min)/beta                           t_n = near - m(near)/beta, where N = 0
 //! ```
 //!
-//! `rho` takes up what rounding did to `tau`, so that `h` and `t'` are known to 2^-24 of `h`, not of `t_h`, but for the rounding
-//! of `e`. `EXACT` adds
+//! `rho` takes up what rounding did to `tau`, so that `h` and `t'` are known to 2^-24 of `h`, not of `t_h`, but for the
+//! rounding of `e`. `EXACT` adds
 //!
 //! - `f` in f64, so that `h` and `t'` are rounded once;
 //! - `q`, `beta` and `m` in f64, and a Newton step from `near` to `t_n`: where N = 0 is known to 2^-48 of the distance,
 //!   to 2^-40 where `|d|` is 1e-5 off.
 //!
-//! A lane is hard, and found in f64, by what it holds itself: where the line passes the emitter closer than 2^-14 of `t_h`,
-//! `d` or the normal is
-//! farther from unit length than 1e-5, `h` is below 1e-6 of `t_min` or 1e-12 m, or anything is very large or no number; with `EXACT` also where an end of the
-//! ray lies closer to the emitter's plane than 2^-18 of the distance to the emitter, so that the sign of `m` is certain.
+//! A lane is hard, and found in f64, where one of these holds; no other lane is asked:
+//!
+//! - the line passes the emitter closer than 2^-14 of `t_h`, 1e-6 of `t_min`, or 1e-12 m;
+//! - `d` or the normal is farther from unit length than 1e-5;
+//! - a number is very large, or none;
+//! - with `EXACT`, an end of the ray is closer to the emitter's plane than 2^-18 of its distance from the emitter: the sign
+//!   of `m` is certain elsewhere.
 
 use super::{Cosine, EmitterLanes, End, Foot, Lit, PLAIN, RayLanes, dot, two_difference, widen};
 use crate::simd::{Isa, Lanes, Number, none};
@@ -41,8 +44,7 @@ const WIDEST: f32 = PLAIN * 1e-4;
 #[derive(Clone, Copy)]
 pub(crate) struct Clipped<I: Isa> {
     pub(crate) lit: Lit<I>,
-    /// `q`.
-    excess: I::V,
+    q: I::V,
     /// `tau`.
     tau: I::V,
     /// The least `|m|` at the ends of the ray, and `m` at `tau`.
@@ -122,7 +124,7 @@ pub(crate) fn clip<I: Isa, const EXACT: bool, const COSINE: bool>(
     let lit = Lit { a: End { t: a, t_low: a_low }, b: End { t: b, t_low: b_low }, length };
     let margin = m_min.abs().min(m_max.abs());
     let (m_a, m_b) = (I::V::only(!dark_a, m_a), I::V::only(!dark_b, m_b));
-    (Clipped { lit, excess: q, tau, margin, m_tau }, Cosine { m_a, m_b, beta, has_normal: emitter.has_normal })
+    (Clipped { lit, q, tau, margin, m_tau }, Cosine { m_a, m_b, beta, has_normal: emitter.has_normal })
 }
 
 /// The foot of the perpendicular; with `alpha_h` where the `COSINE` is wanted. A lane that is hard is not valid here.
@@ -137,7 +139,7 @@ pub(crate) fn find_foot<I: Isa, const EXACT: bool, const COSINE: bool>(
     let c = |x| isa.splat(x);
     let zero = c(0.0);
     let (d, t_min) = (ray.direction, ray.t_min);
-    let Clipped { lit: Lit { a, b, .. }, excess: q, tau, margin, m_tau } = *clipped;
+    let Clipped { lit: Lit { a, b, .. }, q, tau, margin, m_tau } = *clipped;
 
     let (o, y) = (ray.origin, emitter.position);
     let (rho, h_squared, h_squared_low);
@@ -190,5 +192,5 @@ pub(crate) fn unknown<I: Isa>(isa: I) -> (Clipped<I>, Foot<I>) {
         alpha_h: zero,
         valid: none,
     };
-    (Clipped { lit: Lit { a: end, b: end, length: zero }, excess: zero, tau: zero, margin: zero, m_tau: zero }, foot)
+    (Clipped { lit: Lit { a: end, b: end, length: zero }, q: zero, tau: zero, margin: zero, m_tau: zero }, foot)
 }
