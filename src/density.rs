@@ -22,13 +22,16 @@ pub(crate) trait Density<I: Isa>: Copy {
     fn new(isa: I, ray: &RayLanes<I>, geometry: Geometry<'_, I>, medium: &MediumLanes<I>) -> (Self, I::Mask);
 
     /// Where the CDF is `u`, increasing in `u`.
-    fn invert(&self, isa: I, geometry: Geometry<'_, I>, u: I::V) -> Self::Place;
+    fn draw(&self, isa: I, geometry: Geometry<'_, I>, u: I::V) -> Self::Place;
 
     /// The point of the ray there.
     fn point(&self, isa: I, geometry: Geometry<'_, I>, place: &Self::Place) -> Drawn<I>;
 
     /// The density at a point of the support.
     fn pdf(&self, isa: I, geometry: Geometry<'_, I>, point: &Point<I>) -> Pdf<I>;
+
+    /// The distribution function at a point of the support, but for rounding.
+    fn cdf(&self, isa: I, geometry: Geometry<'_, I>, point: &Point<I>) -> I::V;
 
     /// The distances `[low, high]` that are sampled \[m\].
     #[cfg_attr(optimized, inline(always))]

@@ -10,7 +10,14 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Error {
+    /// A table has no entry.
+    #[non_exhaustive]
+    Empty {
+        /// The table, such as `emitters.table`.
+        field: &'static str,
+    },
     /// A column has another length than the rest of the batch.
+    #[non_exhaustive]
     Length {
         /// The column, as it is named in the call, such as `rays.t_max`.
         field: &'static str,
@@ -21,6 +28,7 @@ pub enum Error {
         expected: usize,
     },
     /// The strategy has no such thing.
+    #[non_exhaustive]
     Unavailable {
         /// What was asked for, such as `radiance`.
         field: &'static str,
@@ -28,6 +36,7 @@ pub enum Error {
         strategy: Strategy,
     },
     /// A parameter is out of its range.
+    #[non_exhaustive]
     Value {
         /// The parameter, such as `g`.
         field: &'static str,
@@ -43,11 +52,17 @@ impl Error {
     pub(crate) fn unless(holds: bool, field: &'static str, value: f32, expected: &'static str) -> Result<(), Self> {
         if holds { Ok(()) } else { Err(Self::Value { field, value, expected }) }
     }
+
+    /// `Ok` if `length` is `expected`, else an [`Error::Length`].
+    pub(crate) fn unless_length(field: &'static str, length: usize, expected: usize) -> Result<(), Self> {
+        if length == expected { Ok(()) } else { Err(Self::Length { field, length, expected }) }
+    }
 }
 
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::Empty { field } => write!(f, "{field} is empty"),
             Self::Length { field, length, expected } => {
                 write!(f, "{field} has {length} elements, expected {expected}")
             }

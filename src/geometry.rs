@@ -303,8 +303,23 @@ impl<I: Isa> Geometry<'_, I> {
     /// `S = alpha sin theta - beta cos theta` at the ends: `dS/dtheta = N`.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn antiderivatives(&self, ends: &Ends<I>) -> [I::V; 2] {
+        [self.antiderivative(self.foot.a, ends.r[0]), self.antiderivative(self.foot.b, ends.r[1])]
+    }
+
+    /// The same at a point.
+    #[cfg_attr(optimized, inline(always))]
+    pub(crate) fn antiderivative(&self, t_prime: I::V, r: I::V) -> I::V {
         let (alpha, beta_h) = (self.foot.alpha_h / self.foot.h, self.cosine.beta * self.foot.h);
-        [alpha.mul_add(self.foot.a, -beta_h) / ends.r[0], alpha.mul_add(self.foot.b, -beta_h) / ends.r[1]]
+        alpha.mul_add(t_prime, -beta_h) / r
+    }
+
+    /// `h` times the way from `a` to a point of the lit interval, and `r_a r` times the cosine of the angle between them
+    /// \[m^2\]; or from `b`.
+    #[cfg_attr(optimized, inline(always))]
+    pub(crate) fn seen_from(&self, isa: I, from_a: I::Mask, point: &Point<I>) -> [I::V; 2] {
+        let way = I::V::select(from_a, self.way_from_a(isa, point.t), self.way_to_b(isa, point.t));
+        let end = I::V::select(from_a, self.foot.a, self.foot.b);
+        [self.foot.h * way, end.mul_add(point.t_prime, self.foot.h_squared)]
     }
 
     /// The point at an angle `delta` from an end, with `tau = tan(delta/2)`.

@@ -79,10 +79,10 @@ mod sampler;
 mod scene;
 mod simd;
 mod strategy;
+mod threads;
 
 pub use batch::{Counts, Emitters, Media, Rays, Samples};
 pub use error::Error;
-pub use glam;
 #[cfg(feature = "measure")]
 #[doc(hidden)]
 pub use limits::{Limit, Operations};
@@ -94,3 +94,4 @@ pub use sampler::{Sample, Sampler};
 pub use scene::{Emitter, FARTHEST, Medium, Ray, UNIT_TOLERANCE};
 pub use simd::Backend;
 pub use strategy::{Strategy, UnknownStrategy};
+pub use threads::Threads;

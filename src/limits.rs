@@ -50,7 +50,7 @@ impl Sampler {
         inputs.check_given("samples.t", samples.t)?;
         inputs.check_given("samples.pdf", samples.pdf)?;
         let mut needed = Operations::default();
-        let mut rest = Samples { t: samples.t, pdf: samples.pdf, weight: None, r: None };
+        let mut rest = Samples::new(samples.t, samples.pdf);
         for start in (0..inputs.len()).step_by(AT_ONCE) {
             let few = inputs.slice(start..inputs.len().min(start + AT_ONCE));
             let (out, beyond) = OfSamples::split_at(rest, few.len() * few.per_ray);

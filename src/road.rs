@@ -4,16 +4,16 @@
 //! stations of one task and one density, one pass after the other. No ray's arithmetic knows where in the batch it stands:
 //! chunks, blocks and threads change no bit.
 
+mod at_distance;
 mod blocks;
 mod evaluate;
-mod pdf;
 mod radiance;
 mod sample;
 #[cfg(feature = "measure")]
 pub(crate) mod stages;
 
+pub(crate) use at_distance::{Cdf, Pdf};
 pub(crate) use evaluate::Evaluate;
-pub(crate) use pdf::Pdf;
 pub(crate) use radiance::Radiance;
 pub(crate) use sample::Sample;
 
@@ -22,7 +22,7 @@ use crate::density::Kind;
 use crate::simd::{Backend, Isa, Kernel, MOST_LANES, Machine};
 use crate::strategy::product::knots;
 use crate::strategy::{equi_angular, point_normal, taylor_phase, taylor_transmittance, transmittance};
-use crate::{Precision, Strategy};
+use crate::{Precision, Strategy, Threads};
 use core::marker::PhantomData;
 use core::ops::Range;
 
@@ -101,18 +101,26 @@ fn by_strategy<T: OfDensity>(machine: impl Machine, method: Method, inputs: &Inp
 }
 
 /// Takes a batch the whole way, its chunks spread over the threads.
-pub(crate) fn travel<T: Task>(backend: Backend, method: Method, inputs: &Inputs<'_>, out: Out<'_, T>) -> Counts {
+pub(crate) fn travel<T: Task>(
+    threads: Threads,
+    backend: Backend,
+    method: Method,
+    inputs: &Inputs<'_>,
+    out: Out<'_, T>,
+) -> Counts {
     let Some((low, high)) = halves(inputs) else {
         return by_groups::<T>(backend, method, inputs, out);
     };
     let (out_low, out_high) = T::Out::split_at(out, low.values());
-    let low = || travel::<T>(backend, method, &low, out_low);
-    let high = || travel::<T>(backend, method, &high, out_high);
     #[cfg(feature = "rayon")]
-    let (low, high) = rayon::join(low, high);
-    #[cfg(not(feature = "rayon"))]
-    let (low, high) = (low(), high());
-    low + high
+    if let Some([of_low, of_high]) = threads.halves() {
+        let (low, high) = rayon::join(
+            || travel::<T>(of_low, backend, method, &low, out_low),
+            || travel::<T>(of_high, backend, method, &high, out_high),
+        );
+        return low + high;
+    }
+    travel::<T>(threads, backend, method, &low, out_low) + travel::<T>(threads, backend, method, &high, out_high)
 }
 
 /// Halves of whole chunks, so that only the last chunk is cut short; `None` for a single chunk.
@@ -163,7 +171,7 @@ fn by_groups<T: Task>(backend: Backend, method: Method, inputs: &Inputs<'_>, mut
         (whole..rays).map(of_ray).fold(Counts::default(), |sum, counts| sum + counts)
     } else if whole > 0 {
         // The last group once more, up to the end: what was written is written again, with the same bits.
-        let last = inputs.from(rays - lanes).counting(lanes - few..lanes);
+        let last = inputs.slice(rays - lanes..rays).counting(lanes - few..lanes);
         let out = T::Out::part(&mut out, (rays - lanes) * per_ray..rays * per_ray);
         T::run(backend, method, &last, out)
     } else {
@@ -184,7 +192,7 @@ fn by_groups<T: Task>(backend: Backend, method: Method, inputs: &Inputs<'_>, mut
 fn one_ray<T: Task>(backend: Backend, method: Method, inputs: &Inputs<'_>, mut out: Out<'_, T>) -> Counts {
     let (lanes, values) = (backend.lanes(), inputs.per_ray);
     let mut pads = Pads::new();
-    let everywhere = pads.of_one_ray(inputs, lanes);
+    let everywhere = pads.of_rays(inputs, lanes);
     if values < lanes {
         let given = first_values(inputs.given);
         let turn = everywhere.by_turn(&given, 1).counting(0..values);

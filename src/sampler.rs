@@ -4,7 +4,7 @@ use crate::batch::{Counts, Emitters, Inputs, Media, Rays, Samples};
 use crate::road::Method;
 use crate::scene::{Emitter, Medium, Ray};
 use crate::simd::Backend;
-use crate::{Error, Precision, Strategy, road};
+use crate::{Error, Precision, Strategy, Threads, road};
 use core::slice::{from_mut, from_ref};
 
 /// Samples scattering distances of one density.
@@ -23,10 +23,14 @@ pub struct Sampler {
     strategy: Strategy,
     precision: Precision,
     backend: Backend,
+    threads: Threads,
 }
 
 /// One sample, as [`Samples`] holds many.
+///
+/// It may get more fields, as those may.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Sample {
     /// Distance along the ray \[m\].
     pub t: f32,
@@ -39,10 +43,11 @@ pub struct Sample {
 }
 
 impl Sampler {
-    /// A sampler of `strategy`, as exact as there is, on the widest backend of this machine.
+    /// A sampler of `strategy`, as exact as there is, on the widest backend of this machine and all threads of the pool.
     #[must_use]
     pub fn new(strategy: Strategy) -> Self {
-        Self { strategy, precision: Precision::default(), backend: Backend::detect() }
+        let (precision, threads) = (Precision::default(), Threads::default());
+        Self { strategy, precision, backend: Backend::detect(), threads }
     }
 
     /// The same with another precision.
@@ -65,6 +70,23 @@ impl Sampler {
     #[must_use]
     pub fn with_backend(self, backend: Backend) -> Self {
         Self { backend, ..self }
+    }
+
+    /// The same on other threads. A sampler is a few bytes, so that every call may have its own:
+    ///
+    /// ```
+    /// # use airlight::{Sampler, Strategy, Threads};
+    /// let sampler = Sampler::new(Strategy::Product5);
+    /// let here = sampler.with_threads(Threads::This);
+    /// ```
+    #[must_use]
+    pub fn with_threads(self, threads: Threads) -> Self {
+        Self { threads, ..self }
+    }
+
+    /// Takes a batch the whole way.
+    fn travel<T: road::Task>(&self, inputs: &Inputs<'_>, out: road::Out<'_, T>) -> Counts {
+        road::travel::<T>(self.threads, self.backend, self.method(), inputs, out)
     }
 
     pub(crate) fn method(&self) -> Method {
@@ -120,13 +142,7 @@ impl Sampler {
         if let Some(r) = &samples.r {
             inputs.check_given("samples.r", r)?;
         }
-        let out = Samples {
-            t: samples.t,
-            pdf: samples.pdf,
-            weight: samples.weight.as_deref_mut(),
-            r: samples.r.as_deref_mut(),
-        };
-        Ok(road::travel::<road::Sample>(self.backend, self.method(), &inputs, out))
+        Ok(self.travel::<road::Sample>(&inputs, samples.reborrow()))
     }
 
     /// An estimate of each ray's single-scattered radiance per unit of the emitter's intensity \[1/m^2\], without a
@@ -163,7 +179,7 @@ impl Sampler {
         }
         let inputs = Inputs::new(rays, emitters, media)?;
         inputs.check("radiance", radiance)?;
-        Ok(road::travel::<road::Radiance>(self.backend, self.method(), &inputs, radiance))
+        Ok(self.travel::<road::Radiance>(&inputs, radiance))
     }
 
     /// The density at given distances `t`, for multiple importance sampling \[1/m\]; 0 outside the sampled interval.
@@ -200,7 +216,38 @@ impl Sampler {
     ) -> Result<Counts, Error> {
         let inputs = Inputs::new(rays, emitters, media)?.with(t, "t")?;
         inputs.check_given("pdf", pdf)?;
-        Ok(road::travel::<road::Pdf>(self.backend, self.method(), &inputs, pdf))
+        Ok(self.travel::<road::Pdf>(&inputs, pdf))
+    }
+
+    /// The distribution function at given distances `t` \[1\]: the probability that [`sample`](Self::sample) returns less,
+    /// 0 before the sampled interval and 1 beyond it. It is the inverse of `sample`: from `t` back to `u`, which pbrt calls
+    /// `Invert`, for bidirectional and primary-sample-space methods.
+    ///
+    /// Max error CDF_ERROR beyond the rounding of `t`. What is written for an empty or invalid ray is 0. A NaN in `t` makes its
+    /// ray invalid.
+    ///
+    /// ```
+    /// # use airlight::{Emitter, Medium, Ray, Sampler, Strategy};
+    /// let (ray, lamp) = (Ray::new([0.0; 3], [0.0, 0.0, 1.0], 0.0, 9.0)?, Emitter::point([0.0, 1.0, 3.0])?);
+    /// let (fog, sampler) = (Medium::new(0.01, 0.1, 0.6)?, Sampler::new(Strategy::EquiAngular));
+    /// let sample = sampler.sample_one(&ray, &lamp, &fog, 0.25).unwrap();
+    /// assert!((sampler.cdf_one(&ray, &lamp, &fog, sample.t) - 0.25).abs() < 1e-6);
+    /// # Ok::<(), airlight::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`sample`](Self::sample).
+    pub fn cdf(
+        &self,
+        rays: &Rays<'_>,
+        emitters: &Emitters<'_>,
+        media: &Media<'_>,
+        t: &[f32],
+        cdf: &mut [f32],
+    ) -> Result<Counts, Error> {
+        let inputs = Inputs::new(rays, emitters, media)?.with(t, "t")?;
+        inputs.check_given("cdf", cdf)?;
+        Ok(self.travel::<road::Cdf>(&inputs, cdf))
     }
 
     /// The integrand `mu_s T rho N / r^2` at given distances `t` \[1/m^3\], the same for every strategy of a precision; 0 outside
@@ -219,7 +266,7 @@ impl Sampler {
     ) -> Result<Counts, Error> {
         let inputs = Inputs::new(rays, emitters, media)?.with(t, "t")?;
         inputs.check_given("integrand", integrand)?;
-        Ok(road::travel::<road::Evaluate>(self.backend, self.method(), &inputs, integrand))
+        Ok(self.travel::<road::Evaluate>(&inputs, integrand))
     }
 
     /// Goes the road of [`sample`](Self::sample) up to a stage and no further, to time it; nothing is written.
@@ -237,7 +284,7 @@ impl Sampler {
         u: &[f32],
     ) -> Result<(), Error> {
         let inputs = Inputs::new(rays, emitters, media)?.with(u, "u")?;
-        road::travel::<road::stages::UpTo>(self.backend, self.method(), &inputs, stage);
+        self.travel::<road::stages::UpTo>(&inputs, stage);
         Ok(())
     }
 
@@ -245,13 +292,9 @@ impl Sampler {
     #[must_use]
     pub fn sample_one(&self, ray: &Ray, emitter: &Emitter, medium: &Medium, u: f32) -> Option<Sample> {
         let [mut t, mut pdf, mut weight, mut r] = [0.0; 4];
-        let out = Samples {
-            t: from_mut(&mut t),
-            pdf: from_mut(&mut pdf),
-            weight: Some(from_mut(&mut weight)),
-            r: Some(from_mut(&mut r)),
-        };
-        let counts = one::<road::Sample>(self.backend, self.method(), ray, emitter, medium, u, out);
+        let out = Samples::new(from_mut(&mut t), from_mut(&mut pdf));
+        let out = out.weight(from_mut(&mut weight)).r(from_mut(&mut r));
+        let counts = self.one::<road::Sample>(ray, emitter, medium, u, out);
         (counts.sampled == 1).then_some(Sample { t, pdf, weight, r })
     }
 
@@ -259,37 +302,43 @@ impl Sampler {
     #[must_use]
     pub fn pdf_one(&self, ray: &Ray, emitter: &Emitter, medium: &Medium, t: f32) -> f32 {
         let mut pdf = 0.0;
-        one::<road::Pdf>(self.backend, self.method(), ray, emitter, medium, t, from_mut(&mut pdf));
+        self.one::<road::Pdf>(ray, emitter, medium, t, from_mut(&mut pdf));
         pdf
+    }
+
+    /// [`cdf`](Self::cdf) for one ray.
+    #[must_use]
+    pub fn cdf_one(&self, ray: &Ray, emitter: &Emitter, medium: &Medium, t: f32) -> f32 {
+        let mut cdf = 0.0;
+        self.one::<road::Cdf>(ray, emitter, medium, t, from_mut(&mut cdf));
+        cdf
     }
 
     /// [`evaluate`](Self::evaluate) for one ray.
     #[must_use]
     pub fn evaluate_one(&self, ray: &Ray, emitter: &Emitter, medium: &Medium, t: f32) -> f32 {
         let mut integrand = 0.0;
-        one::<road::Evaluate>(self.backend, self.method(), ray, emitter, medium, t, from_mut(&mut integrand));
+        self.one::<road::Evaluate>(ray, emitter, medium, t, from_mut(&mut integrand));
         integrand
     }
-}
 
-/// A batch of one ray.
-fn one<T: road::Task>(
-    backend: Backend,
-    method: Method,
-    ray: &Ray,
-    emitter: &Emitter,
-    medium: &Medium,
-    given: f32,
-    out: road::Out<'_, T>,
-) -> Counts {
-    let (origin, direction) = (ray.origin().to_array(), ray.direction().to_array());
-    let (t_min, t_max) = (ray.t_min(), ray.t_max());
-    let rays = Rays {
-        origin: [0, 1, 2].map(|k| from_ref(&origin[k])),
-        direction: [0, 1, 2].map(|k| from_ref(&direction[k])),
-        t_min: from_ref(&t_min),
-        t_max: from_ref(&t_max),
-    };
-    let inputs = Inputs::one(rays, *emitter, *medium, from_ref(&given));
-    road::travel::<T>(backend, method, &inputs, out)
+    /// A batch of one ray.
+    fn one<T: road::Task>(
+        &self,
+        ray: &Ray,
+        emitter: &Emitter,
+        medium: &Medium,
+        given: f32,
+        out: road::Out<'_, T>,
+    ) -> Counts {
+        let (origin, direction) = (ray.origin(), ray.direction());
+        let (t_min, t_max) = (ray.t_min(), ray.t_max());
+        let rays = Rays::new(
+            [0, 1, 2].map(|k| from_ref(&origin[k])),
+            [0, 1, 2].map(|k| from_ref(&direction[k])),
+            from_ref(&t_min),
+            from_ref(&t_max),
+        );
+        self.travel::<T>(&Inputs::one(rays, *emitter, *medium, from_ref(&given)), out)
+    }
 }

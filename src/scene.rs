@@ -12,8 +12,8 @@ pub const UNIT_TOLERANCE: f32 = 1e-3;
 /// The part `[t_min, t_max]` of the ray `x(t) = origin + t direction` that lies in the medium.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
-    origin: Vec3,
-    direction: Vec3,
+    origin: [f32; 3],
+    direction: [f32; 3],
     t_min: f32,
     t_max: f32,
 }
@@ -27,7 +27,13 @@ impl Ray {
     /// [`Error::Value`] unless the coordinates of `origin` are at most [`FARTHEST`] in size, `direction` has length 1
     /// within [`UNIT_TOLERANCE`] (its exact length does not matter: distances are in metres all the same) and
     /// `0 <= t_min <= t_max`, `t_min <= FARTHEST`.
-    pub fn new(origin: Vec3, direction: Vec3, t_min: f32, t_max: f32) -> Result<Self, Error> {
+    pub fn new(
+        origin: impl Into<[f32; 3]>,
+        direction: impl Into<[f32; 3]>,
+        t_min: f32,
+        t_max: f32,
+    ) -> Result<Self, Error> {
+        let (origin, direction) = (origin.into(), direction.into());
         check_position("origin", origin)?;
         check_unit("direction", direction)?;
         Error::unless((0.0..=FARTHEST).contains(&t_min), "t_min", t_min, "0 <= t_min <= 1e18")?;
@@ -37,12 +43,12 @@ impl Ray {
 
     /// Where the ray starts \[m\].
     #[must_use]
-    pub fn origin(&self) -> Vec3 {
+    pub fn origin(&self) -> [f32; 3] {
         self.origin
     }
     /// Where it goes, of unit length.
     #[must_use]
-    pub fn direction(&self) -> Vec3 {
+    pub fn direction(&self) -> [f32; 3] {
         self.direction
     }
     /// Where it enters the medium \[m\].
@@ -63,8 +69,8 @@ impl Ray {
 /// without one `N = 1`. Radiance, area and power are factors of the caller.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Emitter {
-    position: Vec3,
-    normal: Option<Vec3>,
+    position: [f32; 3],
+    normal: Option<[f32; 3]>,
 }
 
 impl Emitter {
@@ -72,7 +78,8 @@ impl Emitter {
     ///
     /// # Errors
     /// [`Error::Value`] if a coordinate is NaN or larger than [`FARTHEST`] in size.
-    pub fn point(position: Vec3) -> Result<Self, Error> {
+    pub fn point(position: impl Into<[f32; 3]>) -> Result<Self, Error> {
+        let position = position.into();
         check_position("position", position)?;
         Ok(Self { position, normal: None })
     }
@@ -83,7 +90,8 @@ impl Emitter {
     /// # Errors
     /// [`Error::Value`] if a coordinate is NaN or larger than [`FARTHEST`] in size, or if the length of the normal is
     /// not 1 within [`UNIT_TOLERANCE`].
-    pub fn point_normal(position: Vec3, normal: Vec3) -> Result<Self, Error> {
+    pub fn point_normal(position: impl Into<[f32; 3]>, normal: impl Into<[f32; 3]>) -> Result<Self, Error> {
+        let (position, normal) = (position.into(), normal.into());
         check_position("position", position)?;
         check_unit("normal", normal)?;
         Ok(Self { position, normal: Some(normal) })
@@ -91,12 +99,12 @@ impl Emitter {
 
     /// Where it is \[m\].
     #[must_use]
-    pub fn position(&self) -> Vec3 {
+    pub fn position(&self) -> [f32; 3] {
         self.position
     }
     /// Its unit normal, if it has one.
     #[must_use]
-    pub fn normal(&self) -> Option<Vec3> {
+    pub fn normal(&self) -> Option<[f32; 3]> {
         self.normal
     }
 }
@@ -152,14 +160,14 @@ impl Medium {
     }
 }
 
-fn check_position(field: &'static str, p: Vec3) -> Result<(), Error> {
-    for c in p.to_array() {
+fn check_position(field: &'static str, p: [f32; 3]) -> Result<(), Error> {
+    for c in p {
         Error::unless(c.abs() <= FARTHEST, field, c, "coordinates of at most 1e18 in size")?;
     }
     Ok(())
 }
 
-fn check_unit(field: &'static str, v: Vec3) -> Result<(), Error> {
-    let length = v.length();
+fn check_unit(field: &'static str, v: [f32; 3]) -> Result<(), Error> {
+    let length = Vec3::from(v).length();
     Error::unless((length - 1.0).abs() <= UNIT_TOLERANCE, field, length, "length 1 within 1e-3")
 }

@@ -44,7 +44,7 @@ fn the_mean_over_all_variates_is_the_radiance() {
         let column = |value: f32| vec![value; BATCH];
         let [zero, one] = [0.0, 1.0].map(column);
         let (t_min, t_max) = (column(ray.t_min()), column(ray.t_max()));
-        let rays = Rays { origin: [&zero; 3], direction: [&zero, &zero, &one], t_min: &t_min, t_max: &t_max };
+        let rays = Rays::new([&zero; 3], [&zero, &zero, &one], &t_min, &t_max);
         for sampler in samplers::all() {
             let (strategy, precision) = (sampler.strategy(), sampler.precision());
             let [mut t, mut pdf, mut weight, mut u] = [(); 4].map(|()| column(0.0));
@@ -53,8 +53,8 @@ fn the_mean_over_all_variates_is_the_radiance() {
                 for (i, u) in u.iter_mut().enumerate() {
                     *u = (first + i) as f32 / VARIATES as f32;
                 }
-                let mut samples = Samples { t: &mut t, pdf: &mut pdf, weight: Some(&mut weight), r: None };
-                let (emitters, media) = (Emitters::One(emitter), Media::One(medium));
+                let mut samples = Samples::new(&mut t, &mut pdf).weight(&mut weight);
+                let (emitters, media) = (Emitters::one(emitter), Media::one(medium));
                 sampler.sample(&rays, &emitters, &media, &u, &mut samples).unwrap();
                 sum += weight.iter().map(|&w| f64::from(w)).sum::<f64>();
                 largest = weight.iter().fold(largest, |largest, &w| largest.max(w.into()));

@@ -1,7 +1,7 @@
 //! Inputs that break renderers do not break this one: every bound holds on every family, and what is not a number or
 //! beyond all range comes out finite, in range and counted.
 
-use airlight::glam::Vec3;
+use glam::Vec3;
 use airlight::oracle::Scene;
 use airlight::{Emitter, Medium, Ray, Sampler, Strategy};
 use airlight_tools::backends::distinct;

@@ -108,18 +108,15 @@ fn any_alignment_and_nothing_beside_it() {
             for n in [1, 7, 8, 9, 31, 75] {
                 let column = |k: usize| &moved[k][shift(k)..shift(k) + n];
                 let three = |k: usize| [column(k), column(k + 1), column(k + 2)];
-                let rays = airlight::Rays { origin: three(0), direction: three(3), t_min: column(6), t_max: column(7) };
-                let emitters = Emitters::Each { position: three(8), normal: three(11) };
-                let media = Media::Each { mu_a: column(14), mu_s: column(15), g: column(16) };
+                let rays = airlight::Rays::new(three(0), three(3), column(6), column(7));
+                let emitters = Emitters::each(three(8), three(11));
+                let media = Media::each(column(14), column(15), column(16));
                 let mut written: [Vec<f32>; 4] = std::array::from_fn(|_| canaries(n + 32));
                 let inside = |k: usize| -> Range<usize> { 8 + shift(k)..8 + shift(k) + n };
                 let [t, pdf, weight, r] = &mut written;
-                let mut samples = Samples {
-                    t: &mut t[inside(0)],
-                    pdf: &mut pdf[inside(1)],
-                    weight: Some(&mut weight[inside(2)]),
-                    r: Some(&mut r[inside(3)]),
-                };
+                let mut samples = Samples::new(&mut t[inside(0)], &mut pdf[inside(1)])
+                    .weight(&mut weight[inside(2)])
+                    .r(&mut r[inside(3)]);
                 sampler.sample(&rays, &emitters, &media, column(Columns::GIVEN), &mut samples).unwrap();
                 for (k, column) in written.iter().enumerate() {
                     for (i, value) in column.iter().enumerate() {
@@ -175,8 +172,8 @@ fn one_for_all_is_the_same_for_each() {
             let bits: Vec<[u32; 4]> = (0..n).map(|i| each.bits(i)).collect();
             let both = [(Some(one.emitter), None), (None, Some(one.medium)), (Some(one.emitter), Some(one.medium))];
             for (emitter, medium) in both {
-                let emitters = emitter.map_or(columns.emitters(0..n), Emitters::One);
-                let media = medium.map_or(columns.media(0..n), Media::One);
+                let emitters = emitter.map_or(columns.emitters(0..n), Emitters::one);
+                let media = medium.map_or(columns.media(0..n), Media::one);
                 let mut drawn = Drawn::new(n);
                 let samples = &mut drawn.samples();
                 let counts = sampler.sample(&columns.rays(0..n), &emitters, &media, columns.given(), samples).unwrap();

@@ -63,18 +63,14 @@ impl Crossing {
     fn mean(&self, strategy: Strategy, lamp: Vec3, normal: Option<Vec3>) -> f64 {
         let column = |value: f32| [value];
         let (origin, direction) = (self.origin.to_array().map(column), self.direction.to_array().map(column));
-        let rays = Rays {
-            origin: origin.each_ref().map(|c| &c[..]),
-            direction: direction.each_ref().map(|c| &c[..]),
-            t_min: &[self.t_min],
-            t_max: &[self.t_max],
-        };
+        let (t_min, t_max) = ([self.t_min], [self.t_max]);
+        let rays = Rays::new(origin.each_ref().map(|c| &c[..]), direction.each_ref().map(|c| &c[..]), &t_min, &t_max);
         let emitter = normal.map_or(Emitter::point(lamp), |n| Emitter::point_normal(lamp, n)).unwrap();
         let medium = Medium::new(MU_A, MU_S, G).unwrap();
         let u: Vec<f32> = (0..SAMPLES).map(|i| (i as f32 + 0.5) / SAMPLES as f32).collect();
         let [mut t, mut pdf, mut weight] = [(); 3].map(|()| vec![f32::NAN; SAMPLES]);
-        let mut samples = Samples { t: &mut t, pdf: &mut pdf, weight: Some(&mut weight), r: None };
-        let (emitters, media) = (Emitters::One(emitter), Media::One(medium));
+        let mut samples = Samples::new(&mut t, &mut pdf).weight(&mut weight);
+        let (emitters, media) = (Emitters::one(emitter), Media::one(medium));
         Sampler::new(strategy).sample(&rays, &emitters, &media, &u, &mut samples).unwrap();
         let corrected = t.iter().zip(&weight).map(|(&t, &weight)| {
             let outside = outside(self.at(t.into()), lamp.as_dvec3());

@@ -1,5 +1,6 @@
 //! Columns for one lane group, made of fewer rays than it has lanes.
 
+use super::source::Source;
 use super::{Emitters, Inputs, Media, Rays};
 use crate::simd::MOST_LANES;
 
@@ -11,70 +12,72 @@ const NOTHING: Pad = [0.0; MOST_LANES];
 /// What copies of the columns of a few rays are made in.
 pub(crate) struct Pads {
     rays: [Pad; 8],
-    emitters: Option<[Pad; 6]>,
-    media: Option<[Pad; 3]>,
+    emitters: SourcePads<6>,
+    media: SourcePads<3>,
 }
 
 impl Pads {
     /// Nothing yet.
     #[inline]
     pub(crate) fn new() -> Self {
-        Self { rays: [NOTHING; 8], emitters: None, media: None }
+        Self { rays: [NOTHING; 8], emitters: SourcePads::new(), media: SourcePads::new() }
     }
 
     /// A lane group of so many lanes: the rays of `inputs` one after the other, then the first one again.
     pub(crate) fn of_rays<'a>(&'a mut self, inputs: &Inputs<'a>, lanes: usize) -> Inputs<'a> {
-        self.fill(inputs, lanes, |pad, column| {
-            pad.fill(column[0]);
-            pad[..column.len()].copy_from_slice(column);
-        })
-    }
-
-    /// The one ray of `inputs` in all of so many lanes.
-    pub(crate) fn of_one_ray<'a>(&'a mut self, inputs: &Inputs<'a>, lanes: usize) -> Inputs<'a> {
-        self.fill(inputs, lanes, |pad, column| pad.fill(column[0]))
-    }
-
-    fn fill<'a>(&'a mut self, inputs: &Inputs<'a>, lanes: usize, write: impl Fn(&mut Pad, &[f32])) -> Inputs<'a> {
         let Rays { origin: [ox, oy, oz], direction: [dx, dy, dz], t_min, t_max } = inputs.rays;
         let [ox, oy, oz, dx, dy, dz, t_min, t_max] =
-            filled(&mut self.rays, [ox, oy, oz, dx, dy, dz, t_min, t_max], lanes, &write);
-        let emitters = match inputs.emitters {
-            Emitters::Each { position: [px, py, pz], normal: [nx, ny, nz] } => {
-                let pads = self.emitters.insert([NOTHING; 6]);
-                let [px, py, pz, nx, ny, nz] = filled(pads, [px, py, pz, nx, ny, nz], lanes, &write);
-                Emitters::Each { position: [px, py, pz], normal: [nx, ny, nz] }
-            }
-            one @ Emitters::One(_) => one,
-        };
-        let media = match inputs.media {
-            Media::Each { mu_a, mu_s, g } => {
-                let [mu_a, mu_s, g] = filled(self.media.insert([NOTHING; 3]), [mu_a, mu_s, g], lanes, &write);
-                Media::Each { mu_a, mu_s, g }
-            }
-            one @ Media::One(_) => one,
-        };
+            filled(&mut self.rays, [ox, oy, oz, dx, dy, dz, t_min, t_max], lanes);
         Inputs {
             rays: Rays { origin: [ox, oy, oz], direction: [dx, dy, dz], t_min, t_max },
-            emitters,
-            media,
+            emitters: Emitters(self.emitters.fill(inputs.emitters.0, lanes)),
+            media: Media(self.media.fill(inputs.media.0, lanes)),
             ..*inputs
         }
     }
 }
 
-/// The first lanes of the pads, after `write` has written the columns to them.
+/// Those of emitters or media.
+struct SourcePads<const K: usize> {
+    columns: Option<[Pad; K]>,
+    index: Option<[u32; MOST_LANES]>,
+}
+
+impl<const K: usize> SourcePads<K> {
+    #[inline]
+    fn new() -> Self {
+        Self { columns: None, index: None }
+    }
+
+    fn fill<'a, T: Copy>(&'a mut self, source: Source<'a, T, K>, lanes: usize) -> Source<'a, T, K> {
+        match source {
+            Source::One(one) => Source::One(one),
+            Source::Each(columns) => Source::Each(filled(self.columns.insert([NOTHING; K]), columns, lanes)),
+            Source::Table { table, index } => {
+                let pad = self.index.insert([0; MOST_LANES]);
+                fill(pad, index);
+                Source::Table { table, index: &pad[..lanes] }
+            }
+        }
+    }
+}
+
+/// The first lanes of the pads, filled from the columns.
 #[inline]
-fn filled<'a, const K: usize>(
-    pads: &'a mut [Pad; K],
-    columns: [&[f32]; K],
-    lanes: usize,
-    write: impl Fn(&mut Pad, &[f32]),
-) -> [&'a [f32]; K] {
+fn filled<'a, const K: usize>(pads: &'a mut [Pad; K], columns: [&[f32]; K], lanes: usize) -> [&'a [f32]; K] {
     for (pad, column) in pads.iter_mut().zip(columns) {
-        write(pad, column);
+        fill(pad, column);
     }
     pads.each_ref().map(|pad| &pad[..lanes])
+}
+
+/// The values of a column, then the first one again.
+#[inline]
+fn fill<T: Copy>(pad: &mut [T; MOST_LANES], column: &[T]) {
+    pad.fill(column[0]);
+    if column.len() > 1 {
+        pad[..column.len()].copy_from_slice(column);
+    }
 }
 
 /// The first values of a column, and zeros if there are fewer.

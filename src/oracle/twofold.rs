@@ -1,6 +1,6 @@
 //! Vectors with twice the digits of f64: products that cancel leave a sum that still has all of f64's.
 
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 use std::ops::{Add, Mul, Sub};
 
 /// The unevaluated sum of a number and of what rounding it took away.
@@ -49,7 +49,7 @@ pub(super) struct Vector([Twofold; 3]);
 
 impl Vector {
     /// `a - b` exactly.
-    pub(super) fn difference(a: Vec3, b: Vec3) -> Self {
+    pub(super) fn difference(a: [f32; 3], b: [f32; 3]) -> Self {
         Self([0, 1, 2].map(|k| Twofold::sum(a[k].into(), -f64::from(b[k]))))
     }
 
@@ -68,9 +68,9 @@ impl Vector {
     }
 }
 
-impl From<Vec3> for Vector {
-    fn from(v: Vec3) -> Self {
-        Self::difference(v, Vec3::ZERO)
+impl From<[f32; 3]> for Vector {
+    fn from(v: [f32; 3]) -> Self {
+        Self::difference(v, [0.0; 3])
     }
 }
 
@@ -81,9 +81,9 @@ mod tests {
     #[test]
     fn products_that_cancel_leave_all_digits() {
         let (long, step) = (2f32.powi(25), f32::EPSILON);
-        let w = Vector::difference(Vec3::new(long, long, 0.0), Vec3::new(-1.0 / long, -1.0 / long, 0.0));
+        let w = Vector::difference([long, long, 0.0], [-1.0 / long, -1.0 / long, 0.0]);
         let expected = f64::from(step) * (f64::from(long) + 1.0 / f64::from(long));
-        assert_eq!(w.dot(Vector::from(Vec3::new(1.0 + step, -1.0, 0.0))), expected);
-        assert_eq!(w.cross(Vector::from(Vec3::new(1.0 + step, 1.0, 0.0))).length(), expected);
+        assert_eq!(w.dot(Vector::from([1.0 + step, -1.0, 0.0])), expected);
+        assert_eq!(w.cross(Vector::from([1.0 + step, 1.0, 0.0])).length(), expected);
     }
 }

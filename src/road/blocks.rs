@@ -7,7 +7,7 @@
 //! 3. weights, the same for all densities.
 
 use crate::Precision;
-use crate::batch::{Counts, Emitters, Inputs, Run, Turn};
+use crate::batch::{Counts, Gathered, Inputs, MOST_RAYS, Rows, Run, Turn};
 use crate::density::{Density, Kind, SetUp};
 use crate::geometry::{Clipped, Cosine, Foot, Geometry, clip, find_foot, in_f64, pick, unknown};
 use crate::simd::{GROUPS, Isa, Lanes, MOST_LANES, Records, Room, none};
@@ -24,15 +24,14 @@ static ONE_TURN: [Turn; GROUPS] = {
     turns
 };
 
-/// So many rays are located together, at most `GROUPS` lane groups.
-const RAYS: usize = 256;
-
 /// Some lane groups of a chunk, located.
 pub(super) struct Block<'b, I: Isa> {
     /// The chunk.
     pub(super) inputs: &'b Inputs<'b>,
     /// Which ones of the chunk they are.
     pub(super) groups: Range<usize>,
+    /// Their media.
+    pub(super) media: Rows<'b, 3>,
     clipped: &'b [Clipped<I>],
     cosines: &'b [Cosine<I>],
     feet: &'b [Foot<I>],
@@ -85,8 +84,8 @@ pub(super) fn for_each_block<I: Isa>(
     wanted: Wanted,
     mut visit: impl FnMut(&Block<'_, I>),
 ) {
-    let (at_once, count) = ((RAYS / I::V::N).clamp(1, GROUPS), inputs.len() / I::V::N);
-    let each = matches!(inputs.emitters, Emitters::Each { .. });
+    let (at_once, count) = ((MOST_RAYS / I::V::N).clamp(1, GROUPS), inputs.len() / I::V::N);
+    let each = inputs.emitters.0.differs();
     let locate = match wanted.precision {
         // What the rounding of a product leaves is known by a fused addition alone.
         _ if !I::FUSED => in_double,
@@ -116,15 +115,20 @@ pub(super) fn for_each_block<I: Isa>(
             },
         )
     };
+    let (mut emitters, mut media) = (Gathered::new(), Gathered::new());
     for start in (0..count).step_by(at_once) {
         let groups = start..count.min(start + at_once);
-        let (clipped, cosines, feet) = locate(isa, inputs, groups.clone(), &mut places);
+        let rays = groups.start * I::V::N..groups.end * I::V::N;
+        let emitters = inputs.emitters.0.rows(rays.clone(), &mut emitters);
+        let media = inputs.media.0.rows(rays, &mut media);
+        let (clipped, cosines, feet) = locate(isa, inputs, emitters, groups.clone(), &mut places);
         let cosines = if wanted.cosine { cosines } else { no_cosines };
         for part in (0..groups.len()).step_by(wanted.records) {
             let part = part..groups.len().min(part + wanted.records);
             visit(&Block {
                 inputs,
                 groups: groups.start + part.start..groups.start + part.end,
+                media: media.part(part.start * I::V::N..part.end * I::V::N),
                 clipped: &clipped[part.clone()],
                 cosines: &cosines[part.clone()],
                 feet: &feet[part],
@@ -212,6 +216,7 @@ type Located<'r, I> = (&'r [Clipped<I>], &'r [Cosine<I>], &'r [Foot<I>]);
 fn in_single<'r, I: Isa, const EXACT: bool, const COSINE: bool, const EACH: bool>(
     isa: I,
     inputs: &Inputs<'_>,
+    emitters: Rows<'_, 6>,
     groups: Range<usize>,
     places: &'r mut Places<I>,
 ) -> Located<'r, I> {
@@ -220,14 +225,14 @@ fn in_single<'r, I: Isa, const EXACT: bool, const COSINE: bool, const EACH: bool
         #[cfg_attr(optimized, inline(always))]
         || {
             let rays = inputs.ray_groups::<I>();
-            let mut emitter = inputs.emitters.lanes(isa, start);
+            let mut emitter = emitters.emitters(isa, 0);
             let (mut clipped, mut cosines) = (places.clipped.start(), places.cosines.start());
             let mut feet = places.feet.start();
             let mut valid = !none(isa);
             for group in groups.clone() {
                 rays.prefetch(isa, group, AHEAD);
                 if EACH {
-                    emitter = inputs.emitters.lanes(isa, group);
+                    emitter = emitters.emitters(isa, group - start);
                 }
                 let ray = rays.lanes(isa, group);
                 let (of_clipped, of_cosine) = clip::<I, EXACT, COSINE>(isa, &ray, &emitter);
@@ -246,7 +251,7 @@ fn in_single<'r, I: Isa, const EXACT: bool, const COSINE: bool, const EACH: bool
             if EXACT {
                 for (index, group) in groups.enumerate() {
                     if EACH {
-                        emitter = inputs.emitters.lanes(isa, group);
+                        emitter = emitters.emitters(isa, index);
                     }
                     let (ray, of_clipped) = (rays.lanes(isa, group), &clipped[index]);
                     let beta = if COSINE { cosines[index].beta } else { isa.splat(0.0) };
@@ -259,7 +264,7 @@ fn in_single<'r, I: Isa, const EXACT: bool, const COSINE: bool, const EACH: bool
         },
     );
     if hard {
-        rescue::<I, COSINE>(isa, inputs, start, clipped, cosines, feet);
+        rescue::<I, COSINE>(isa, inputs, emitters, start, clipped, cosines, feet);
     }
     (clipped, cosines, feet)
 }
@@ -272,6 +277,7 @@ pub(super) const AHEAD: usize = 2 * GROUPS;
 fn rescue<I: Isa, const COSINE: bool>(
     isa: I,
     inputs: &Inputs<'_>,
+    emitters: Rows<'_, 6>,
     start: usize,
     clipped: &mut [Clipped<I>],
     cosines: &mut [Cosine<I>],
@@ -282,13 +288,13 @@ fn rescue<I: Isa, const COSINE: bool>(
         || {
             let rays = inputs.ray_groups::<I>();
             let no_cosine = Cosine::none(isa);
-            let mut emitter = inputs.emitters.lanes(isa, start);
+            let mut emitter = emitters.emitters(isa, 0);
             for (record, (Clipped { lit, .. }, foot)) in clipped.iter_mut().zip(feet).enumerate() {
                 let hard = !foot.valid;
                 if I::V::bits(hard) != 0 {
                     let group = start + record;
-                    if matches!(inputs.emitters, Emitters::Each { .. }) {
-                        emitter = inputs.emitters.lanes(isa, group);
+                    if emitters.differs() {
+                        emitter = emitters.emitters(isa, record);
                     }
                     let exact = in_f64(isa, &rays.lanes(isa, group), &emitter);
                     let cosine = if COSINE { &cosines[record] } else { &no_cosine };
@@ -307,6 +313,7 @@ fn rescue<I: Isa, const COSINE: bool>(
 fn in_double<'r, I: Isa>(
     isa: I,
     inputs: &Inputs<'_>,
+    emitters: Rows<'_, 6>,
     groups: Range<usize>,
     places: &'r mut Places<I>,
 ) -> Located<'r, I> {
@@ -323,7 +330,7 @@ fn in_double<'r, I: Isa>(
             )
         },
     );
-    rescue::<I, true>(isa, inputs, groups.start, clipped, cosines, feet);
+    rescue::<I, true>(isa, inputs, emitters, groups.start, clipped, cosines, feet);
     (clipped, cosines, feet)
 }
 
@@ -339,15 +346,15 @@ pub(super) fn set_up<'r, I: Isa, Home, D: Density<I>>(
     isa.vectorize::<Home, _>(
         #[cfg_attr(optimized, inline(always))]
         || {
-            let (rays, media) = (block.inputs.ray_groups::<I>(), &block.inputs.media);
-            let mut medium = media.lanes(isa, block.groups.start);
+            let rays = block.inputs.ray_groups::<I>();
+            let mut medium = block.media.media(isa, 0);
             let geometries = block.geometries();
             records.fill(
                 block.groups.len(),
                 #[cfg_attr(optimized, inline(always))]
                 |record| {
                     let group = block.groups.start + record;
-                    media.renew(isa, group, &mut medium);
+                    block.media.renew(isa, record, &mut medium);
                     let geometry = geometries.get(record);
                     SetUp::new(isa, &rays.lanes(isa, group), geometry, &medium)
                 },

@@ -45,12 +45,12 @@ fn integrands<I: Isa>(isa: I, block: &Block<'_, I>, turns: &[Turn], t: &[f32], o
     isa.vectorize::<MediumLanes<I>, _>(
         #[cfg_attr(optimized, inline(always))]
         || {
-            let (rays, media) = (block.inputs.ray_groups::<I>(), &block.inputs.media);
-            let mut medium = media.lanes(isa, block.groups.start);
+            let rays = block.inputs.ray_groups::<I>();
+            let mut medium = block.media.media(isa, 0);
             let geometries = block.geometries();
             for ((turn, t), out) in turns.iter().zip(I::groups(t)).zip(I::groups_mut(out)) {
                 let group = block.groups.start + turn.record;
-                media.renew(isa, group, &mut medium);
+                block.media.renew(isa, turn.record, &mut medium);
                 let (ray, geometry) = (rays.lanes(isa, group), geometries.get(turn.record));
                 let t = isa.load(t);
                 let (valid, faced) = (geometry.foot.valid & medium.valid & t.eq(t), geometry.faced(isa));

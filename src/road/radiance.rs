@@ -55,12 +55,12 @@ impl<D, const K: usize> Kernel for OnGroups<'_, D, K> {
                 #[cfg_attr(optimized, inline(always))]
                 || {
                     let rays = inputs.ray_groups::<I>();
-                    let mut medium = inputs.media.lanes(isa, block.groups.start);
+                    let mut medium = block.media.media(isa, 0);
                     let geometries = block.geometries();
                     let out = &mut I::groups_mut(out)[block.groups.clone()];
                     for (record, (set_up, out)) in set_ups.iter().zip(out).enumerate() {
                         let (group, geometry) = (block.groups.start + record, geometries.get(record));
-                        inputs.media.renew(isa, group, &mut medium);
+                        block.media.renew(isa, record, &mut medium);
                         let SetUp { density, valid, lit } = set_up;
                         let radiance = density.radiance(isa, &rays.lanes(isa, group), geometry, &medium);
                         let value = I::V::only(*valid & *lit, radiance.min(isa.splat(f32::MAX)));

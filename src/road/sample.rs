@@ -3,7 +3,7 @@
 use super::blocks::{AHEAD, Block, Geometries, SetUps, Tally, Wanted, for_each_block, for_each_run, set_up};
 use super::{Method, OfDensity, Out, Task, by_strategy};
 use crate::Precision;
-use crate::batch::{Counts, Inputs, OfSamples, Outputs, RayGroups, Samples, Turn};
+use crate::batch::{Counts, Inputs, OfSamples, Outputs, RayGroups, Rows, Samples, Turn};
 use crate::density::{Density, Drawn, Kind, SetUp};
 use crate::geometry::Geometry;
 use crate::integrand::{MediumLanes, integrand_r2};
@@ -124,23 +124,23 @@ impl<I: Isa> Once<'_, I> {
     fn stations(&self, isa: I) -> Stations<'_, I> {
         let Block { inputs, groups, .. } = self.block;
         Stations {
-            inputs,
             first: groups.start,
             rays: inputs.ray_groups(),
             geometries: self.block.geometries(),
             u: &I::groups(self.u)[..groups.len()],
-            medium: inputs.media.lanes(isa, groups.start),
+            media: self.block.media,
+            medium: self.block.media.media(isa, 0),
         }
     }
 }
 
 /// What the lane groups of a block need to go from geometry to output.
 struct Stations<'p, I: Isa> {
-    inputs: &'p Inputs<'p>,
     first: usize,
     rays: RayGroups<'p, I>,
     geometries: Geometries<'p, I>,
     u: &'p [I::Group],
+    media: Rows<'p, 3>,
     medium: MediumLanes<I>,
 }
 
@@ -155,7 +155,7 @@ impl<I: Isa> Stations<'_, I> {
         tally: &mut Tally<I>,
     ) -> Sampled<I> {
         let (group, geometry) = (self.first + record, self.geometries.get(record));
-        self.inputs.media.renew(isa, group, &mut self.medium);
+        self.media.renew(isa, record, &mut self.medium);
         let ray = self.rays.lanes(isa, group);
         let set_up = SetUp::<I, D::On<I>>::new(isa, &ray, geometry, &self.medium);
         let inverted = Inverted::new(isa, geometry, &set_up, &self.u[record]);
@@ -176,7 +176,7 @@ impl<I: Isa, P> Inverted<I, P> {
     fn new<D: Density<I, Place = P>>(isa: I, geometry: Geometry<'_, I>, set_up: &SetUp<I, D>, u: &I::Group) -> Self {
         isa.prefetch(u, AHEAD);
         let u = isa.load(u);
-        let place = set_up.density.invert(isa, geometry, u);
+        let place = set_up.density.draw(isa, geometry, u);
         Self { place, valid: set_up.valid & isa.splat(0.0).le(u) & u.le(isa.splat(1.0)) }
     }
 }
@@ -308,12 +308,12 @@ fn weigh<I: Isa>(isa: I, block: &Block<'_, I>, turns: &[Turn], points: &[Sampled
                 }
             }
             let Some(weight) = &mut out.weight else { return };
-            let (rays, media) = (block.inputs.ray_groups::<I>(), &block.inputs.media);
-            let mut medium = media.lanes(isa, block.groups.start);
+            let rays = block.inputs.ray_groups::<I>();
+            let mut medium = block.media.media(isa, 0);
             let geometries = block.geometries();
             for ((turn, Sampled { drawn, sampled }), weight) in turns.iter().zip(points).zip(I::groups_mut(weight)) {
                 let group = block.groups.start + turn.record;
-                media.renew(isa, group, &mut medium);
+                block.media.renew(isa, turn.record, &mut medium);
                 let (ray, geometry) = (rays.lanes(isa, group), geometries.get(turn.record));
                 let times_r2 = drawn.pdf.times_r2;
                 let f = integrand_r2(isa, &ray, geometry, &medium, &drawn.point);

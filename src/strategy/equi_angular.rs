@@ -3,7 +3,7 @@
 use crate::density::{self, Density, Drawn, Pdf, SetUp};
 use crate::geometry::{Angle, BIAS, Geometry, Point, RayLanes};
 use crate::integrand::MediumLanes;
-use crate::simd::math::tan;
+use crate::simd::math::{angle_of, tan};
 use crate::simd::{Isa, Lanes, Records, none};
 
 pub(crate) struct Kind;
@@ -37,7 +37,7 @@ impl<I: Isa> Density<I> for EquiAngular<I> {
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn invert(&self, isa: I, _: Geometry<'_, I>, u: I::V) -> Angle<I> {
+    fn draw(&self, isa: I, _: Geometry<'_, I>, u: I::V) -> Angle<I> {
         let from_a = u.le(self.turn);
         let share = I::V::select(from_a, u, isa.splat(1.0) - u);
         Angle { from_a, tan_half: tan(isa, isa.splat(0.5) * self.subtended * share) }
@@ -52,5 +52,11 @@ impl<I: Isa> Density<I> for EquiAngular<I> {
     #[cfg_attr(optimized, inline(always))]
     fn pdf(&self, isa: I, geometry: Geometry<'_, I>, point: &Point<I>) -> Pdf<I> {
         Pdf::over_angle(isa.splat(1.0), self.subtended, geometry, point)
+    }
+
+    #[cfg_attr(optimized, inline(always))]
+    fn cdf(&self, isa: I, geometry: Geometry<'_, I>, point: &Point<I>) -> I::V {
+        let [across, along] = geometry.seen_from(isa, !none(isa), point);
+        angle_of(isa, across, along) / self.subtended
     }
 }

@@ -6,7 +6,7 @@
 use crate::density::{self, Density, Drawn, Pdf, SetUp};
 use crate::geometry::{Angle, Geometry, Point, RayLanes};
 use crate::integrand::MediumLanes;
-use crate::simd::math::tan;
+use crate::simd::math::{angle_of, tan};
 use crate::simd::{Isa, Lanes, Number, Records, none};
 
 pub(crate) struct Kind;
@@ -81,7 +81,7 @@ impl<I: Isa> Density<I> for PointNormal<I> {
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn invert(&self, isa: I, geometry: Geometry<'_, I>, u: I::V) -> Angle<I> {
+    fn draw(&self, isa: I, geometry: Geometry<'_, I>, u: I::V) -> Angle<I> {
         let rest = isa.splat(1.0) - u;
         let from_a = u.le(self.turn);
         // Off the very end, where N may be 0.
@@ -104,5 +104,15 @@ impl<I: Isa> Density<I> for PointNormal<I> {
     #[cfg_attr(optimized, inline(always))]
     fn pdf(&self, isa: I, geometry: Geometry<'_, I>, point: &Point<I>) -> Pdf<I> {
         Pdf::over_angle(geometry.cosine(isa, point), self.mass, geometry, point)
+    }
+
+    #[cfg_attr(optimized, inline(always))]
+    fn cdf(&self, isa: I, geometry: Geometry<'_, I>, point: &Point<I>) -> I::V {
+        let g = geometry;
+        let [across, along] = g.seen_from(isa, !none(isa), point);
+        let tan_half = across / g.foot.r(g.foot.a).mul_add(point.r, along);
+        let (n, s) = (g.cosine(isa, point), g.antiderivative(point.t_prime, point.r));
+        let cosines = mass_of_cosine::<I>([self.n_a, n], [self.s_a, s], tan_half, along.lt(isa.splat(0.0)));
+        I::V::select(g.cosine.has_normal, cosines, angle_of(isa, across, along)) / self.mass
     }
 }

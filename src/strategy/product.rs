@@ -94,6 +94,20 @@ struct Segment<I: Isa> {
     width: I::V,
 }
 
+/// Where a given point lies.
+struct Found<I: Isa> {
+    segment: Segment<I>,
+    /// The CDF at the start of the segment.
+    below: I::V,
+    /// How far `v` is from the knots on both sides.
+    from_0: I::V,
+    to_1: I::V,
+    /// `dv/dY`, `X` and `r`.
+    over_y: I::Double,
+    x: I::Double,
+    r: I::Double,
+}
+
 impl<I: Isa, const K: usize> Product<I, K> {
     const V: [f32; K] = {
         let mut v = [0.0; K];
@@ -299,7 +313,7 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn invert(&self, isa: I, _: Geometry<'_, I>, u: I::V) -> Place<I> {
+    fn draw(&self, isa: I, _: Geometry<'_, I>, u: I::V) -> Place<I> {
         let c = |x| isa.splat(x);
         let one = c(1.0);
         let (segment, below) = self.segment(isa, |_, cdf| cdf.le(u));
@@ -341,10 +355,29 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
         Drawn { point, pdf, bisected: none(isa) }
     }
 
+    #[cfg_attr(optimized, inline(always))]
+    fn pdf(&self, isa: I, geometry: Geometry<'_, I>, point: &Point<I>) -> Pdf<I> {
+        let Found { segment, from_0, to_1, over_y, x, r, .. } = self.find(isa, geometry, point);
+        let p_v = segment.f_1.mul_add(from_0, segment.f_0 * to_1) / segment.width;
+        // dY/dt = X/r.
+        let over_y = (p_v.widen() * x) * over_y;
+        Pdf { over_t: I::V::narrow(over_y * reciprocal(isa, r)), times_r2: I::V::narrow(over_y * r) }
+    }
+
+    #[cfg_attr(optimized, inline(always))]
+    fn cdf(&self, isa: I, geometry: Geometry<'_, I>, point: &Point<I>) -> I::V {
+        let Found { segment, below, from_0, to_1, .. } = self.find(isa, geometry, point);
+        // The line is `p_v` here.
+        let p_v = segment.f_1.mul_add(from_0, segment.f_0 * to_1) / segment.width;
+        (segment.f_0 + p_v).mul_add(from_0 * isa.splat(0.5), below)
+    }
+}
+
+impl<I: Isa, const K: usize> Product<I, K> {
     /// In f64, from the geometry to the place between two knots and back: a dozen roundings, which the slope of the density
     /// multiplies, would be most of the error.
     #[cfg_attr(optimized, inline(always))]
-    fn pdf(&self, isa: I, geometry: Geometry<'_, I>, point: &Point<I>) -> Pdf<I> {
+    fn find(&self, isa: I, geometry: Geometry<'_, I>, point: &Point<I>) -> Found<I> {
         let c = |x| isa.splat(x);
         let g = geometry;
         let (x, r) = g.foot.exact_x_and_r(isa, point);
@@ -358,16 +391,15 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
         let turn = (e + isa.splat_double(1.0)) * over_sum;
         let v = y * turn;
         let rest = to_y_b * (e * over_sum);
-        let (segment, _) = self.segment(isa, |i, _| c(Self::V[i]).le(I::V::narrow(v)));
+        let (segment, below) = self.segment(isa, |i, _| c(Self::V[i]).le(I::V::narrow(v)));
         // By v or by 1 - v, whichever has the smaller error: a segment is narrow, and the density may vanish within it.
         let near_0 = I::V::narrow(v - rest).lt(c(0.0));
         let (v_0, v_1) = (segment.v_0, segment.v_0 + segment.width);
         let (left, right) = (c(1.0) - v_0, c(1.0) - v_1);
         let from_0 = I::V::select(near_0, I::V::narrow(v - v_0.widen()), I::V::narrow(left.widen() - rest));
         let to_1 = I::V::select(near_0, I::V::narrow(v_1.widen() - v), I::V::narrow(rest - right.widen()));
-        let p_v = segment.f_1.mul_add(from_0.max(c(0.0)), segment.f_0 * to_1.max(c(0.0))) / segment.width;
-        // dv/dY = Y_c (1 + e)/(Y + Y_c)^2, and dY/dt = X/r.
-        let over_y = (p_v.widen() * x) * (turn * (y_c * over_sum));
-        Pdf { over_t: I::V::narrow(over_y * reciprocal(isa, r)), times_r2: I::V::narrow(over_y * r) }
+        let (from_0, to_1) = (from_0.max(c(0.0)), to_1.max(c(0.0)));
+        // dv/dY = Y_c (1 + e)/(Y + Y_c)^2.
+        Found { segment, below, from_0, to_1, over_y: turn * (y_c * over_sum), x, r }
     }
 }

@@ -16,7 +16,7 @@ use crate::expansion::{Expanded, ORDER};
 use crate::geometry::{Angle, Geometry, Point, RayLanes};
 use crate::integrand::MediumLanes;
 use crate::inversion::{At, solve};
-use crate::simd::math::{SIN, horner, horner_lanes, sin_cos, tan};
+use crate::simd::math::{SIN, angle_of, horner, horner_lanes, sin_cos, tan};
 use crate::simd::{Double, Isa, Lanes, Number, Records};
 use core::marker::PhantomData;
 
@@ -159,7 +159,7 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn invert(&self, isa: I, geometry: Geometry<'_, I>, u: I::V) -> Place<I> {
+    fn draw(&self, isa: I, geometry: Geometry<'_, I>, u: I::V) -> Place<I> {
         let c = |x| isa.splat(x);
         let g = geometry;
         let rest = c(1.0) - u;
@@ -231,6 +231,31 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
     fn pdf(&self, isa: I, geometry: Geometry<'_, I>, point: &Point<I>) -> Pdf<I> {
         let t_prime = I::V::select(self.mirrored, -point.t_prime, point.t_prime);
         self.at(isa, geometry, point, angle(isa, t_prime, geometry.foot.h))
+    }
+
+    /// On the first piece from its start, on the second one from the end.
+    #[cfg_attr(optimized, inline(always))]
+    fn cdf(&self, isa: I, geometry: Geometry<'_, I>, point: &Point<I>) -> I::V {
+        let (c, g) = (|x| isa.splat(x), geometry);
+        let [across, along] = g.seen_from(isa, !self.mirrored, point);
+        let delta = angle_of(isa, across, along);
+        let first = delta.lt(self.half + self.half);
+        let x = I::V::select(first, delta / self.half - c(1.0), c(1.0));
+        let below = (x.mul_add(by_halves(x, x * x, &self.integral), -self.below) / self.scale) * self.mass_1;
+
+        let [across, along] = g.seen_from(isa, self.mirrored, point);
+        let rest = angle_of(isa, across, along);
+        let s = g.antiderivative(point.t_prime, point.r);
+        let s = I::V::select(self.mirrored, -s, s);
+        let right_angle = c(core::f32::consts::FRAC_PI_2);
+        let tan_half = tan(isa, rest.min(right_angle) * c(0.5));
+        let n = g.cosine(isa, point);
+        let cosines = mass_of_cosine::<I>([n, self.n_b], [s, -self.s_b], tan_half, right_angle.lt(rest));
+        let above = self.p_c * I::V::select(g.cosine.has_normal, cosines, rest);
+
+        let (total, mass) = (self.mass_1 + self.mass_2, I::V::select(first, below, above));
+        let cdf = mass / total;
+        I::V::select(!first & !self.mirrored | first & self.mirrored, c(1.0) - cdf, cdf)
     }
 }
 

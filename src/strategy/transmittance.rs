@@ -52,7 +52,7 @@ impl<I: Isa> Density<I> for Transmittance<I> {
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn invert(&self, isa: I, _: Geometry<'_, I>, u: I::V) -> I::V {
+    fn draw(&self, isa: I, _: Geometry<'_, I>, u: I::V) -> I::V {
         // 1 - u (1 - e) = (1 - u) + u e, exact where it is small; the floor keeps the pdf of u = 1 above 0.
         let remaining = u.mul_add(self.passed, isa.splat(1.0) - u).max(isa.splat(1e-37));
         let depth = neg_ln_1m(isa, u * self.absorbed, remaining);
@@ -69,6 +69,13 @@ impl<I: Isa> Density<I> for Transmittance<I> {
     #[cfg_attr(optimized, inline(always))]
     fn pdf(&self, isa: I, _: Geometry<'_, I>, point: &Point<I>) -> Pdf<I> {
         Pdf::over_distance(self.at(isa, point.t - self.t_min), point.r)
+    }
+
+    #[cfg_attr(optimized, inline(always))]
+    fn cdf(&self, isa: I, _: Geometry<'_, I>, point: &Point<I>) -> I::V {
+        let s = point.t - self.t_min;
+        let (absorbed, _) = one_minus_exp(isa, self.mu_t * s);
+        I::V::select(self.uniform, s / self.length, absorbed / self.absorbed)
     }
 
     #[cfg_attr(optimized, inline(always))]

@@ -141,9 +141,9 @@ impl Columns {
     fn push(&mut self, case: &Case, given: f32) {
         let Case { ray, emitter, medium } = case;
         let normal = emitter.normal().unwrap_or_default();
-        let row = [ray.origin().to_array(), ray.direction().to_array()].into_iter().flatten();
+        let row = [ray.origin(), ray.direction()].into_iter().flatten();
         let row = row.chain([ray.t_min(), ray.t_max()]);
-        let row = row.chain(emitter.position().to_array()).chain(normal.to_array());
+        let row = row.chain(emitter.position()).chain(normal);
         let row = row.chain([medium.mu_a(), medium.mu_s(), medium.g(), given]);
         for (column, value) in self.0.iter_mut().zip(row) {
             column.push(value);
@@ -164,21 +164,16 @@ impl Columns {
     }
 
     pub(crate) fn rays(&self, range: Range<usize>) -> Rays<'_> {
-        Rays {
-            origin: self.three(0, &range),
-            direction: self.three(3, &range),
-            t_min: &self.0[6][range.clone()],
-            t_max: &self.0[7][range],
-        }
+        Rays::new(self.three(0, &range), self.three(3, &range), &self.0[6][range.clone()], &self.0[7][range])
     }
 
     pub(crate) fn emitters(&self, range: Range<usize>) -> Emitters<'_> {
-        Emitters::Each { position: self.three(8, &range), normal: self.three(11, &range) }
+        Emitters::each(self.three(8, &range), self.three(11, &range))
     }
 
     pub(crate) fn media(&self, range: Range<usize>) -> Media<'_> {
         let [mu_a, mu_s, g] = self.three(14, &range);
-        Media::Each { mu_a, mu_s, g }
+        Media::each(mu_a, mu_s, g)
     }
 
     fn three(&self, first: usize, range: &Range<usize>) -> [&[f32]; 3] {
@@ -233,7 +228,7 @@ impl Drawn {
     }
 
     pub(crate) fn samples(&mut self) -> Samples<'_> {
-        Samples { t: &mut self.t, pdf: &mut self.pdf, weight: Some(&mut self.weight), r: Some(&mut self.r) }
+        Samples::new(&mut self.t, &mut self.pdf).weight(&mut self.weight).r(&mut self.r)
     }
 
     /// `t`, `pdf`, `weight` and `r` of a ray.

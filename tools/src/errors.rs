@@ -212,7 +212,7 @@ impl Outcomes {
         let (rays, emitters, media) = (columns.rays(), columns.emitters(), columns.media());
         let [mut t, mut pdf, mut weight, mut r, mut pdf_at_t, mut integrand] =
             [(); 6].map(|()| vec![f32::NAN; cases.len()]);
-        let mut samples = Samples { t: &mut t, pdf: &mut pdf, weight: Some(&mut weight), r: Some(&mut r) };
+        let mut samples = Samples::new(&mut t, &mut pdf).weight(&mut weight).r(&mut r);
         let counts = sampler.sample(&rays, &emitters, &media, &columns.u, &mut samples).expect(EQUAL);
         sampler.pdf(&rays, &emitters, &media, &t, &mut pdf_at_t).expect(EQUAL);
         sampler.evaluate(&rays, &emitters, &media, &t, &mut integrand).expect(EQUAL);

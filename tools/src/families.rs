@@ -381,24 +381,37 @@ impl Columns {
     #[must_use]
     pub fn rays(&self) -> Rays<'_> {
         let (origin, direction) = (self.origin.each_ref(), self.direction.each_ref());
-        Rays {
-            origin: origin.map(Vec::as_slice),
-            direction: direction.map(Vec::as_slice),
-            t_min: &self.t_min,
-            t_max: &self.t_max,
-        }
+        Rays::new(origin.map(Vec::as_slice), direction.map(Vec::as_slice), &self.t_min, &self.t_max)
     }
 
     /// Their emitters.
     #[must_use]
     pub fn emitters(&self) -> Emitters<'_> {
-        let (position, normal) = (self.position.each_ref(), self.normal.each_ref());
-        Emitters::Each { position: position.map(Vec::as_slice), normal: normal.map(Vec::as_slice) }
+        Emitters::each(self.position(), self.normal())
+    }
+
+    /// The positions of these.
+    #[must_use]
+    pub fn position(&self) -> [&[f32]; 3] {
+        self.position.each_ref().map(Vec::as_slice)
+    }
+
+    /// Their normals.
+    #[must_use]
+    pub fn normal(&self) -> [&[f32]; 3] {
+        self.normal.each_ref().map(Vec::as_slice)
     }
 
     /// Their media.
     #[must_use]
     pub fn media(&self) -> Media<'_> {
-        Media::Each { mu_a: &self.mu_a, mu_s: &self.mu_s, g: &self.g }
+        let [mu_a, mu_s, g] = self.medium();
+        Media::each(mu_a, mu_s, g)
+    }
+
+    /// `mu_a`, `mu_s` and `g` of these.
+    #[must_use]
+    pub fn medium(&self) -> [&[f32]; 3] {
+        [&self.mu_a, &self.mu_s, &self.g]
     }
 }

@@ -135,7 +135,7 @@ pub(crate) struct Columns {
 /// Samples the wavefront in batches of one repetition; the last one may be a part of it.
 fn sample(args: &Args, wavefront: &Wavefront, sampler: Sampler, progress: Part<'_>) -> Result<Run> {
     let reached = args.rays.min(wavefront.len());
-    let media = Media::One(args.medium);
+    let media = Media::one(args.medium);
     let (mut counts, mut sampling) = (Counts::default(), Duration::ZERO);
     let mut strata = Strata::new(reached);
     let mut u = wavefront.u[..reached].to_vec();
@@ -200,7 +200,7 @@ impl Columns {
     /// The first `count` rows, to be written.
     fn samples(&mut self, count: usize) -> Samples<'_> {
         let Self { t, pdf, weight } = self;
-        Samples { t: &mut t[..count], pdf: &mut pdf[..count], weight: Some(&mut weight[..count]), r: None }
+        Samples::new(&mut t[..count], &mut pdf[..count]).weight(&mut weight[..count])
     }
 }
 

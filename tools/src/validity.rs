@@ -1,6 +1,5 @@
 //! Which rays of a wavefront are valid, and what is said of those that are not.
 
-use airlight::Error;
 use anyhow::{Result, bail};
 use serde::Serialize;
 use std::fmt;
@@ -27,7 +26,7 @@ pub(crate) struct Invalid {
 
 impl Validity {
     /// Checks the rays below `rays`.
-    pub(crate) fn of(rays: usize, check: impl Fn(usize) -> Result<(), Error>) -> Self {
+    pub(crate) fn of(rays: usize, check: impl Fn(usize) -> Result<()>) -> Self {
         let mut validity = Self { valid: Vec::new(), invalid: None };
         for ray in 0..rays {
             match (check(ray), &mut validity.invalid) {

@@ -1,7 +1,7 @@
 //! A wavefront: one ray, emitter point and variate per pixel, as a renderer hands it over in an .npz file.
 
 use crate::npy;
-use airlight::{Emitter, Emitters, Error, Ray, Rays};
+use airlight::{Emitter, Emitters, Ray, Rays};
 use anyhow::{Context, Result, bail, ensure};
 use glam::Vec3;
 use std::io::{Cursor, Read};
@@ -67,21 +67,16 @@ impl Wavefront {
 
     /// The first `count` rays.
     pub(crate) fn rays(&self, count: usize) -> Rays<'_> {
-        Rays {
-            origin: first(&self.origin, count),
-            direction: first(&self.direction, count),
-            t_min: &self.t_min[..count],
-            t_max: &self.t_max[..count],
-        }
+        Rays::new(first(&self.origin, count), first(&self.direction, count), &self.t_min[..count], &self.t_max[..count])
     }
 
     /// The emitters of the first `count` rays.
     pub(crate) fn emitters(&self, count: usize) -> Emitters<'_> {
-        Emitters::Each { position: first(&self.position, count), normal: first(&self.normal, count) }
+        Emitters::each(first(&self.position, count), first(&self.normal, count))
     }
 
     /// Ray number `i` and its emitter.
-    pub(crate) fn ray(&self, i: usize) -> Result<(Ray, Emitter), Error> {
+    pub(crate) fn ray(&self, i: usize) -> Result<(Ray, Emitter)> {
         let ray = Ray::new(vector(&self.origin, i), vector(&self.direction, i), self.t_min[i], self.t_max[i])?;
         let (position, normal) = (vector(&self.position, i), vector(&self.normal, i));
         let emitter =
@@ -90,13 +85,10 @@ impl Wavefront {
     }
 
     /// The variate of ray number `i` in the first repetition.
-    pub(crate) fn variate(&self, i: usize) -> Result<f32, Error> {
+    pub(crate) fn variate(&self, i: usize) -> Result<f32> {
         let u = self.u[i];
-        if (0.0..=1.0).contains(&u) {
-            Ok(u)
-        } else {
-            Err(Error::Value { field: "u", value: u, expected: "0 <= u <= 1" })
-        }
+        ensure!((0.0..=1.0).contains(&u), "u is {u}, expected 0 <= u <= 1");
+        Ok(u)
     }
 }
 

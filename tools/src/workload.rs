@@ -97,12 +97,13 @@ impl Workload {
         let [ox, oy, oz, dx, dy, dz, t_min, t_max] = self.rays.each_ref().map(|column| column.of(rays));
         let [t, pdf, weight, r] = self.outputs.each_mut().map(|column| column.of_mut(samples));
         let all = wanted == Wanted::Weights;
+        let densities = Samples::new(t, pdf);
         Call {
-            rays: Rays { origin: [ox, oy, oz], direction: [dx, dy, dz], t_min, t_max },
-            emitters: Emitters::One(emitter()),
-            media: Media::One(medium()),
+            rays: Rays::new([ox, oy, oz], [dx, dy, dz], t_min, t_max),
+            emitters: Emitters::one(emitter()),
+            media: Media::one(medium()),
             u: self.u.of(samples),
-            samples: Samples { t, pdf, weight: all.then_some(weight), r: all.then_some(r) },
+            samples: if all { densities.weight(weight).r(r) } else { densities },
         }
     }
 
@@ -129,15 +130,15 @@ impl Call<'_> {
     /// If there are not so many.
     pub fn part(&mut self, first: usize, count: usize) -> Call<'_> {
         let range = first..first + count;
-        let Rays { origin, direction, t_min, t_max } = self.rays;
+        let Rays { origin, direction, t_min, t_max, .. } = self.rays;
         let [origin, direction] = [origin, direction].map(|columns| columns.map(|column| &column[range.clone()]));
         let Samples { t, pdf, .. } = &mut self.samples;
         Call {
-            rays: Rays { origin, direction, t_min: &t_min[range.clone()], t_max: &t_max[range.clone()] },
+            rays: Rays::new(origin, direction, &t_min[range.clone()], &t_max[range.clone()]),
             emitters: self.emitters,
             media: self.media,
             u: &self.u[range.clone()],
-            samples: Samples { t: &mut t[range.clone()], pdf: &mut pdf[range.clone()], weight: None, r: None },
+            samples: Samples::new(&mut t[range.clone()], &mut pdf[range.clone()]),
         }
     }
 

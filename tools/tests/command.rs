@@ -269,11 +269,11 @@ fn the_output_holds_the_samples_in_the_wavefronts_order() {
     let [mut t, mut pdf, mut weight] = [0, 1, 2].map(|_| vec![f32::NAN; 8]);
     let counts = Sampler::new(Strategy::EquiAngular)
         .sample(
-            &Rays { origin: xyz(0), direction: xyz(3), t_min: &columns[6], t_max: &columns[7] },
-            &Emitters::Each { position: xyz(8), normal: xyz(11) },
-            &Media::One(Medium::new(0.2, 0.5, -0.3).unwrap()),
+            &Rays::new(xyz(0), xyz(3), &columns[6], &columns[7]),
+            &Emitters::each(xyz(8), xyz(11)),
+            &Media::one(Medium::new(0.2, 0.5, -0.3).unwrap()),
             &columns[14],
-            &mut Samples { t: &mut t, pdf: &mut pdf, weight: Some(&mut weight), r: None },
+            &mut Samples::new(&mut t, &mut pdf).weight(&mut weight),
         )
         .unwrap();
     assert_eq!((counts.sampled, counts.invalid), (7, 1));

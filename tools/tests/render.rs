@@ -129,11 +129,11 @@ impl Sight {
         let mu_t = f64::from(scene.medium.mu_t());
         let x = self.point(self.t_max);
         let reflected = |light: &Light| {
-            let (to_light, position) = (light.emitter.position().as_dvec3() - x, light.emitter.position());
+            let (to_light, position) = (position(light.emitter) - x, position(light.emitter));
             let r = to_light.length();
             let facing = facing(object, x, self.direction.as_dvec3());
             let cosine = facing.dot(to_light / r).max(0.0);
-            let from = light.emitter.normal().unwrap().as_dvec3().dot(-to_light / r).max(0.0);
+            let from = Vec3::from(light.emitter.normal().unwrap()).as_dvec3().dot(-to_light / r).max(0.0);
             let seen = f64::from(u8::from(sees(scene, x, light.emitter)));
             assert!(r > 0.0, "{position} is on a surface");
             let brightness = seen * cosine * from * FRAC_1_PI * (-mu_t * (self.t_max + r)).exp() / (r * r);
@@ -170,9 +170,13 @@ fn meet(shape: &Shape, origin: DVec3, direction: DVec3, nearest: f64) -> Option<
     }
 }
 
+fn position(emitter: Emitter) -> DVec3 {
+    Vec3::from(emitter.position()).as_dvec3()
+}
+
 /// Whether nothing is between a point and an emitter.
 fn sees(scene: &Scene, x: DVec3, emitter: Emitter) -> bool {
-    let way = emitter.position().as_dvec3() - x;
+    let way = position(emitter) - x;
     let between = |object: &Object| meet(&object.shape, x, way, 1e-4).is_some_and(|t| t < 1.0);
     !scene.objects.iter().any(|object| object.occludes && between(object))
 }
@@ -275,7 +279,7 @@ fn lamps_shine_through_the_medium() {
     for name in [Name::ManyLights, Name::Forward, Name::Dense] {
         let mut scene = name.scene().unwrap();
         // So near that nothing else is in the picture.
-        let lamp = scene.lights.last().unwrap().emitter.position();
+        let lamp = Vec3::from(scene.lights.last().unwrap().emitter.position());
         scene.camera = Camera { eye: lamp + Vec3::new(0.0, 1.0, 3.0), target: lamp, field_of_view: 0.5 };
         let expected = expected(&scene, 8, |sight| sight.surface(&scene));
         let settings = settings(Strategy::Product3, false, EmitterChoice::Uniform);

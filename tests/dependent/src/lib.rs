@@ -1,6 +1,5 @@
 //! Everything that can be asked of airlight, on little stack.
 
-use airlight::glam::Vec3;
 use airlight::{Backend, Emitter, Emitters, Media, Medium, Ray, Rays, Sampler, Samples, Strategy};
 
 /// The README's example is a test of the documentation.
@@ -33,16 +32,14 @@ impl Columns {
         };
         let mut columns = Self([(); 18].map(|()| Vec::new()));
         for i in 0..RAYS {
-            let mut point = || Vec3::new(uniform(), uniform(), uniform()) * 10.0 - 5.0;
-            let (origin, direction, position, normal) = (point(), point(), point(), point());
-            let (direction, normal) = (direction.normalize(), normal.normalize());
-            let normal = if i % 7 == 0 { Vec3::ZERO } else { normal };
-            let direction = if i % 501 == 0 { Vec3::splat(f32::NAN) } else { direction };
+            let mut point = || [(); 3].map(|()| uniform() * 10.0 - 5.0);
+            let (origin, direction, position, normal) = (point(), unit(point()), point(), unit(point()));
+            let normal = if i % 7 == 0 { [0.0; 3] } else { normal };
+            let direction = if i % 501 == 0 { [f32::NAN; 3] } else { direction };
             let (t_min, length) = (uniform(), 9.0 * uniform());
             let t_max = if i % 11 == 0 { f32::INFINITY } else { t_min + length };
             let medium = [uniform(), uniform(), 2.0 * uniform() - 1.0];
-            let vectors = [origin, direction, position, normal].map(|v| v.to_array());
-            let row = vectors.into_iter().flatten().chain([t_min, t_max]).chain(medium).chain([uniform()]);
+            let row = [origin, direction, position, normal].into_iter().flatten().chain([t_min, t_max]).chain(medium).chain([uniform()]);
             for (column, value) in columns.0.iter_mut().zip(row) {
                 column.push(value);
             }
@@ -56,22 +53,27 @@ impl Columns {
 
     fn rays(&self, rays: usize) -> Rays<'_> {
         let [t_min, t_max] = [12, 13].map(|k| &self.0[k][..rays]);
-        Rays { origin: self.three(0, rays), direction: self.three(3, rays), t_min, t_max }
+        Rays::new(self.three(0, rays), self.three(3, rays), t_min, t_max)
     }
 
     fn emitters(&self, rays: usize) -> Emitters<'_> {
-        Emitters::Each { position: self.three(6, rays), normal: self.three(9, rays) }
+        Emitters::each(self.three(6, rays), self.three(9, rays))
     }
 
     fn media(&self, rays: usize) -> Media<'_> {
         let [mu_a, mu_s, g] = self.three(14, rays);
-        Media::Each { mu_a, mu_s, g }
+        Media::each(mu_a, mu_s, g)
     }
 
     /// A variate for each ray, or several.
     fn variates(&self, count: usize) -> Vec<f32> {
         self.0[17].iter().cycle().take(count).copied().collect()
     }
+}
+
+fn unit(v: [f32; 3]) -> [f32; 3] {
+    let length = v.iter().map(|x| x * x).sum::<f32>().sqrt();
+    v.map(|x| x / length)
 }
 
 /// A hash of bits, FNV-1a.
@@ -98,11 +100,11 @@ pub fn everything(columns: &Columns, strategy: Strategy, backend: Backend) -> Re
         let (emitters, media) = (columns.emitters(rays), columns.media(rays));
         let rays = columns.rays(rays);
         let [mut t, mut pdf, mut weight, mut r] = [(); 4].map(|()| vec![0.0; u.len()]);
-        let mut samples = Samples { t: &mut t, pdf: &mut pdf, weight: None, r: None };
+        let mut samples = Samples::new(&mut t, &mut pdf);
         let counts = sampler.sample(&rays, &emitters, &media, &u, &mut samples)?;
         hash.add(&t);
         hash.add(&pdf);
-        let mut samples = Samples { t: &mut t, pdf: &mut pdf, weight: Some(&mut weight), r: Some(&mut r) };
+        let mut samples = Samples::new(&mut t, &mut pdf).weight(&mut weight).r(&mut r);
         let again = sampler.sample(&rays, &emitters, &media, &u, &mut samples)?;
         assert_eq!(counts, again);
         for column in [&t, &pdf, &weight, &r] {
@@ -128,8 +130,8 @@ pub fn everything(columns: &Columns, strategy: Strategy, backend: Backend) -> Re
 /// # Errors
 /// None.
 pub fn one(sampler: &Sampler) -> Result<[f32; 6], airlight::Error> {
-    let ray = Ray::new(Vec3::ZERO, Vec3::Z, 0.0, 4.0)?;
-    let lamp = Emitter::point_normal(Vec3::new(0.0, 1.0, 3.0), Vec3::NEG_Y)?;
+    let ray = Ray::new([0.0; 3], [0.0, 0.0, 1.0], 0.0, 4.0)?;
+    let lamp = Emitter::point_normal([0.0, 1.0, 3.0], [0.0, -1.0, 0.0])?;
     let fog = Medium::new(0.01, 0.1, 0.6)?;
     let sample = sampler.sample_one(&ray, &lamp, &fog, 0.25).expect("a lit ray");
     let pdf = sampler.pdf_one(&ray, &lamp, &fog, sample.t);

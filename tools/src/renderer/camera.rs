@@ -109,11 +109,6 @@ impl RayQueue {
     /// The queue as airlight takes it.
     #[must_use]
     pub fn rays(&self) -> Rays<'_> {
-        Rays {
-            origin: self.origin.columns(),
-            direction: self.direction.columns(),
-            t_min: &self.t_min,
-            t_max: &self.t_max,
-        }
+        Rays::new(self.origin.columns(), self.direction.columns(), &self.t_min, &self.t_max)
     }
 }

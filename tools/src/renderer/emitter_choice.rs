@@ -1,10 +1,9 @@
 //! Third stage on the way of the airlight: one light for each ray.
 
 use super::camera::RayQueue;
-use super::columns::{Vectors, places};
+use super::columns::places;
 use super::scene::Scene;
-use airlight::{Emitters, Error, Media, Sampler, Strategy};
-use glam::Vec3;
+use airlight::{Emitter, Emitters, Error, Media, Sampler, Strategy};
 use rayon::prelude::*;
 use std::fmt;
 use std::str::FromStr;
@@ -52,7 +51,7 @@ impl FromStr for EmitterChoice {
     }
 }
 
-/// The chosen lights, as columns.
+/// The chosen lights.
 #[derive(Debug)]
 pub struct Choice {
     how: EmitterChoice,
@@ -64,8 +63,8 @@ pub struct Choice {
     pub light: Vec<u32>,
     /// Their probabilities.
     pub probability: Vec<f32>,
-    position: Vectors,
-    normal: Vectors,
+    /// All lights.
+    emitters: Vec<Emitter>,
 }
 
 impl Choice {
@@ -79,8 +78,7 @@ impl Choice {
             estimates: Vec::new(),
             light: Vec::new(),
             probability: Vec::new(),
-            position: Vectors::default(),
-            normal: Vectors::default(),
+            emitters: Vec::new(),
         }
     }
 
@@ -96,8 +94,8 @@ impl Choice {
             self.guides.thin(queue, NEIGHBOURS);
             for (light, estimate) in scene.lights.iter().zip(&mut self.estimates) {
                 estimate.resize(self.guides.len(), 0.0);
-                let emitter = Emitters::One(light.emitter);
-                self.estimator.radiance(&self.guides.rays(), &emitter, &Media::One(scene.medium), estimate)?;
+                let emitter = Emitters::one(light.emitter);
+                self.estimator.radiance(&self.guides.rays(), &emitter, &Media::one(scene.medium), estimate)?;
                 let brightness = light.intensity.element_sum();
                 estimate.iter_mut().for_each(|estimate| *estimate *= brightness);
             }
@@ -118,17 +116,14 @@ impl Choice {
                 left -= *probability;
             }
         });
-
-        let light = &self.light;
-        let emitter = |i: usize| scene.lights[light[i] as usize].emitter;
-        self.position.fill(queue.len(), |i| emitter(i).position());
-        self.normal.fill(queue.len(), |i| emitter(i).normal().unwrap_or(Vec3::ZERO));
+        self.emitters.clear();
+        self.emitters.extend(scene.lights.iter().map(|light| light.emitter));
         Ok(())
     }
 
     /// The chosen lights as airlight takes them.
     #[must_use]
     pub fn emitters(&self) -> Emitters<'_> {
-        Emitters::Each { position: self.position.columns(), normal: self.normal.columns() }
+        Emitters::table(&self.emitters, &self.light)
     }
 }

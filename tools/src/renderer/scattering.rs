@@ -49,14 +49,8 @@ impl Scattering {
         for column in [&mut *t, pdf, weight, other_pdf] {
             column.resize(queue.len(), 0.0);
         }
-        let (rays, emitters, media) = (queue.rays(), choice.emitters(), Media::One(scene.medium));
-        samplers[density].sample(
-            &rays,
-            &emitters,
-            &media,
-            u,
-            &mut Samples { t, pdf, weight: Some(weight), r: None },
-        )?;
+        let (rays, emitters, media) = (queue.rays(), choice.emitters(), Media::one(scene.medium));
+        samplers[density].sample(&rays, &emitters, &media, u, &mut Samples::new(t, pdf).weight(weight))?;
         if let [first, second] = &samplers[..] {
             let other = if density == 0 { second } else { first };
             other.pdf(&rays, &emitters, &media, t, other_pdf)?;

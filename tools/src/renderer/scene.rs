@@ -77,9 +77,9 @@ impl Light {
     /// From `x` to the light, the distance, and the radiant intensity towards `x` before any extinction.
     #[must_use]
     pub fn seen_from(&self, x: Vec3) -> (Vec3, f32, Vec3) {
-        let to_light = self.emitter.position() - x;
+        let to_light = Vec3::from(self.emitter.position()) - x;
         let r = to_light.length();
-        let cosine = self.emitter.normal().map_or(1.0, |normal| (-normal.dot(to_light) / r).max(0.0));
+        let cosine = self.emitter.normal().map_or(1.0, |normal| (-Vec3::from(normal).dot(to_light) / r).max(0.0));
         (to_light / r, r, self.intensity * cosine)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::number::{Big, abs, big, dot, exp, pi};
 use super::quadrature::{gauss_legendre, rule};
-use airlight::{Emitters, FARTHEST, Media};
+use airlight::FARTHEST;
 use airlight_tools::families::{Case, Columns};
 use std::array::from_fn;
 use std::sync::LazyLock;
@@ -24,10 +24,8 @@ impl Scene {
     /// Of a valid case.
     pub(crate) fn new(case: &Case) -> Self {
         let columns = Columns::new(&[*case]);
-        let (rays, emitters, media) = (columns.rays(), columns.emitters(), columns.media());
-        let (Emitters::Each { position, normal }, Media::Each { mu_a, mu_s, g }) = (emitters, media) else {
-            unreachable!("each ray has its own")
-        };
+        let rays = columns.rays();
+        let (position, normal, [mu_a, mu_s, g]) = (columns.position(), columns.normal(), columns.medium());
         let vector = |columns: [&[f32]; 3]| columns.map(|column| big(column[0].into()));
         let (d, x, y) = (vector(rays.direction), vector(rays.origin), vector(position));
         let w: [Big; 3] = from_fn(|k| &x[k] - &y[k]);

@@ -1,15 +1,46 @@
-//! The density at given distances.
+//! What a density is at given distances: itself, or its distribution function.
 
 use super::blocks::{Block, SetUps, Tally, Wanted, for_each_block, for_each_run, set_up};
 use super::{Method, OfDensity, Task, by_strategy};
 use crate::Precision;
 use crate::batch::{Column, Counts, Inputs, Outputs, Turn};
 use crate::density::{Density, Kind, SetUp};
+use crate::geometry::{Geometry, Point};
 use crate::simd::{Isa, Lanes, Machine, Room, none};
 
+/// What is asked at a distance.
+pub(crate) trait Question {
+    /// The answer beyond the end of the support; before its start it is 0.
+    const BEYOND: f32;
+
+    fn answer<I: Isa, D: Density<I>>(isa: I, density: &D, geometry: Geometry<'_, I>, point: &Point<I>) -> I::V;
+}
+
+/// The density.
 pub(crate) struct Pdf;
 
-impl Task for Pdf {
+impl Question for Pdf {
+    const BEYOND: f32 = 0.0;
+
+    #[cfg_attr(optimized, inline(always))]
+    fn answer<I: Isa, D: Density<I>>(isa: I, density: &D, geometry: Geometry<'_, I>, point: &Point<I>) -> I::V {
+        density.pdf(isa, geometry, point).over_t
+    }
+}
+
+/// The distribution function.
+pub(crate) struct Cdf;
+
+impl Question for Cdf {
+    const BEYOND: f32 = 1.0;
+
+    #[cfg_attr(optimized, inline(always))]
+    fn answer<I: Isa, D: Density<I>>(isa: I, density: &D, geometry: Geometry<'_, I>, point: &Point<I>) -> I::V {
+        density.cdf(isa, geometry, point).max(isa.splat(0.0)).min(isa.splat(1.0))
+    }
+}
+
+impl<Q: Question> Task for Q {
     type Out = Column;
 
     fn run(machine: impl Machine, method: Method, inputs: &Inputs<'_>, out: &mut [f32]) -> Counts {
@@ -17,7 +48,7 @@ impl Task for Pdf {
     }
 }
 
-impl OfDensity for Pdf {
+impl<Q: Question> OfDensity for Q {
     fn groups<I: Isa, D: Kind>(isa: I, precision: Precision, inputs: &Inputs<'_>, mut out: &mut [f32]) -> Counts {
         let mut tally = Tally::new(isa, inputs);
         let (mut set_ups, mut pad) = (SetUps::<I, D>::new(), None);
@@ -26,15 +57,17 @@ impl OfDensity for Pdf {
             let set_ups = set_up::<I, D, D::On<I>>(isa, block, &mut set_ups);
             for_each_run(block, |run| {
                 let t = run.values(inputs.given, &mut pad);
-                Column::of_run(&mut out, run, |out| pdfs::<I, D>(isa, block, set_ups, run.turns, t, out, &mut tally));
+                Column::of_run(&mut out, run, |out| {
+                    answers::<I, D, Q>(isa, block, set_ups, run.turns, t, out, &mut tally);
+                });
             });
         });
         tally.counts(isa, inputs)
     }
 }
 
-/// The densities of some turns at the distances `t`.
-fn pdfs<I: Isa, D: Kind>(
+/// The answers for some turns at the distances `t`.
+fn answers<I: Isa, D: Kind, Q: Question>(
     isa: I,
     block: &Block<'_, I>,
     set_ups: &[SetUp<I, D::On<I>>],
@@ -53,10 +86,11 @@ fn pdfs<I: Isa, D: Kind>(
                 let t = isa.load(t);
                 let [low, high] = density.support(geometry);
                 let valid = *valid & t.eq(t);
-                let inside = valid & *lit & low.le(t) & t.le(high);
-                let pdf = density.pdf(isa, geometry, &geometry.point_at_distance(isa, t));
-                isa.store(I::V::only(inside, pdf.over_t), out);
-                tally.add(valid, valid & *lit, none(isa));
+                let sampled = valid & *lit;
+                let answer = Q::answer(isa, density, geometry, &geometry.point_at_distance(isa, t));
+                let answer = I::V::only(low.le(t), I::V::select(t.le(high), answer, isa.splat(Q::BEYOND)));
+                isa.store(I::V::only(sampled, answer), out);
+                tally.add(valid, sampled, none(isa));
             }
         },
     );

@@ -1,0 +1,121 @@
+//! What a call reads, and the parts that it is cut into.
+
+use super::runs::Order;
+use super::{Emitters, Media, RayGroups, Rays, Run, Turn};
+use crate::Error;
+use crate::scene::{Emitter, Medium};
+use crate::simd::Isa;
+use core::ops::Range;
+
+/// The columns that a call reads: the batch, and for each ray some numbers (variates, or distances) next to each other.
+#[derive(Clone, Copy)]
+pub(crate) struct Inputs<'a> {
+    pub(crate) rays: Rays<'a>,
+    pub(crate) emitters: Emitters<'a>,
+    pub(crate) media: Media<'a>,
+    /// Empty if the task takes no numbers.
+    pub(crate) given: &'a [f32],
+    /// How many of them each ray has; the same number of values is written for it.
+    pub(crate) per_ray: usize,
+    pub(super) order: Order,
+    /// The lanes that count, from the first to before the second; `None`: all lanes.
+    pub(super) counted: Option<[usize; 2]>,
+}
+
+impl<'a> Inputs<'a> {
+    /// The inputs, if every column has the same length; nothing is given yet.
+    pub(crate) fn new(rays: &Rays<'a>, emitters: &Emitters<'a>, media: &Media<'a>) -> Result<Self, Error> {
+        let (rays, emitters, media) = (*rays, *emitters, *media);
+        let inputs = Self { rays, emitters, media, given: &[], per_ray: 1, order: Order::ByTurn, counted: None };
+        const O: [&str; 3] = ["rays.origin[0]", "rays.origin[1]", "rays.origin[2]"];
+        const D: [&str; 3] = ["rays.direction[0]", "rays.direction[1]", "rays.direction[2]"];
+        for k in 0..3 {
+            inputs.check(O[k], rays.origin[k])?;
+            inputs.check(D[k], rays.direction[k])?;
+        }
+        inputs.check("rays.t_min", rays.t_min)?;
+        inputs.check("rays.t_max", rays.t_max)?;
+        emitters.0.check(inputs.len())?;
+        media.0.check(inputs.len())?;
+        Ok(inputs)
+    }
+
+    /// One ray.
+    pub(crate) fn one(rays: Rays<'a>, emitter: Emitter, medium: Medium, given: &'a [f32]) -> Self {
+        let (emitters, media) = (Emitters::one(emitter), Media::one(medium));
+        Self { rays, emitters, media, given, per_ray: 1, order: Order::ByTurn, counted: None }
+    }
+
+    /// The same with `given`, if its length is that of the batch or a multiple; `name` is what it is called.
+    pub(crate) fn with(self, given: &'a [f32], name: &'static str) -> Result<Self, Error> {
+        let (length, expected) = (given.len(), self.len());
+        let per_ray = length.checked_div(expected).unwrap_or(1);
+        if length == per_ray * expected && per_ray > 0 {
+            let order = if per_ray == 1 { Order::ByTurn } else { Order::ByLane };
+            Ok(Self { given, per_ray, order, ..self })
+        } else {
+            Err(Error::Length { field: name, length, expected })
+        }
+    }
+
+    /// `Ok` if `column` has the length of the batch.
+    pub(crate) fn check(&self, field: &'static str, column: &[f32]) -> Result<(), Error> {
+        Error::unless_length(field, column.len(), self.len())
+    }
+
+    /// `Ok` if `column` has the length of what was given.
+    pub(crate) fn check_given(&self, field: &'static str, column: &[f32]) -> Result<(), Error> {
+        Error::unless_length(field, column.len(), self.given.len())
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.rays.origin[0].len()
+    }
+
+    /// How many values are written for them.
+    pub(crate) fn values(&self) -> usize {
+        self.len() * self.per_ray
+    }
+
+    /// The rays of `range` alone.
+    pub(crate) fn slice(&self, range: Range<usize>) -> Self {
+        let given = self.given.get(range.start * self.per_ray..range.end * self.per_ray).unwrap_or_default();
+        let emitters = Emitters(self.emitters.0.part(range.clone()));
+        let media = Media(self.media.0.part(range.clone()));
+        Self { rays: self.rays.part(range), emitters, media, given, ..*self }
+    }
+
+    /// The values of `range` alone, of one ray.
+    pub(crate) fn of_one_ray(&self, range: Range<usize>) -> Self {
+        let per_ray = range.len();
+        Self { given: self.given.get(range).unwrap_or_default(), per_ray, ..*self }
+    }
+
+    /// The same rays with other values, those of a turn next to each other.
+    pub(crate) fn by_turn(&self, given: &'a [f32], per_ray: usize) -> Self {
+        Self { given, per_ray, order: Order::ByTurn, ..*self }
+    }
+
+    /// The same with some lanes that count.
+    pub(crate) fn counting(self, lanes: Range<usize>) -> Self {
+        Self { counted: Some([lanes.start, lanes.end]), ..self }
+    }
+
+    /// Which ones of so many lanes count.
+    #[cfg_attr(optimized, inline(always))]
+    pub(crate) fn counted(&self, lanes: usize) -> Range<usize> {
+        let [start, end] = self.counted.unwrap_or([0, lanes]);
+        start..end.min(lanes)
+    }
+
+    /// Some turns that follow each other, of a block whose first group is given, with so many lanes.
+    pub(crate) fn run<'r>(&self, turns: &'r [Turn], first: usize, lanes: usize) -> Run<'r> {
+        Run { turns, first, lanes, per_ray: self.per_ray, order: self.order }
+    }
+
+    /// The rays in lane groups.
+    #[cfg_attr(optimized, inline(always))]
+    pub(crate) fn ray_groups<I: Isa>(&self) -> RayGroups<'a, I> {
+        self.rays.groups()
+    }
+}

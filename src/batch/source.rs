@@ -1,0 +1,137 @@
+//! Where each ray's emitter or medium comes from: one for all, columns, or a table with an index per ray.
+
+use super::{MOST_RAYS, cut};
+use crate::Error;
+use crate::simd::{Isa, Lanes};
+use core::ops::Range;
+
+/// A thing that is described by `K` numbers.
+pub(crate) trait Entry<const K: usize>: Copy {
+    /// What its columns are called in an error, and a table of it, and the index into that.
+    const COLUMNS: [&'static str; K];
+    const TABLE: &'static str;
+    const INDEX: &'static str;
+
+    /// Its numbers, in the order of the columns.
+    fn row(&self) -> [f32; K];
+}
+
+/// One `T` for each ray.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Source<'a, T, const K: usize> {
+    /// The same for all.
+    One(T),
+    /// As columns of the batch's length.
+    Each([&'a [f32]; K]),
+    /// Number `index` of a table; one out of range makes the ray invalid.
+    Table { table: &'a [T], index: &'a [u32] },
+}
+
+impl<'a, T: Entry<K>, const K: usize> Source<'a, T, K> {
+    /// `Ok` if there is one for each of so many rays.
+    pub(super) fn check(&self, rays: usize) -> Result<(), Error> {
+        match *self {
+            Self::One(_) => Ok(()),
+            Self::Each(columns) => {
+                let mut columns = T::COLUMNS.into_iter().zip(columns);
+                columns.try_for_each(|(field, column)| Error::unless_length(field, column.len(), rays))
+            }
+            Self::Table { table: [], .. } => Err(Error::Empty { field: T::TABLE }),
+            Self::Table { index, .. } => Error::unless_length(T::INDEX, index.len(), rays),
+        }
+    }
+
+    /// That of the rays of `range`.
+    pub(super) fn part(&self, range: Range<usize>) -> Self {
+        match *self {
+            Self::One(one) => Self::One(one),
+            Self::Each(columns) => Self::Each(columns.map(|column| &column[range.clone()])),
+            Self::Table { table, index } => Self::Table { table, index: &index[range] },
+        }
+    }
+
+    /// Whether rays differ.
+    pub(crate) fn differs(&self) -> bool {
+        !matches!(self, Self::One(_))
+    }
+
+    /// Those of the rays of `range`, at most [`MOST_RAYS`]; what a table has for them is gathered in `place`.
+    pub(crate) fn rows<'r>(&self, range: Range<usize>, place: &'r mut Gathered<K>) -> Rows<'r, K>
+    where
+        'a: 'r,
+    {
+        match *self {
+            Self::One(one) => Rows::One(one.row()),
+            Self::Each(columns) => Rows::Each(columns.map(|column| &column[range.clone()])),
+            Self::Table { table, index } => Rows::Each(place.gather(table, &index[range])),
+        }
+    }
+}
+
+/// Room for the columns of some rays.
+pub(crate) struct Gathered<const K: usize>(Option<[[f32; MOST_RAYS]; K]>);
+
+impl<const K: usize> Gathered<K> {
+    /// Nothing yet.
+    pub(crate) fn new() -> Self {
+        Self(None)
+    }
+
+    /// The entries of `table` that `index` names, as columns; NaN where there is none.
+    fn gather<T: Entry<K>>(&mut self, table: &[T], index: &[u32]) -> [&[f32]; K] {
+        let columns = self.0.get_or_insert_with(|| [[0.0; MOST_RAYS]; K]);
+        for (ray, &index) in index.iter().enumerate().take(MOST_RAYS) {
+            let row = table.get(index as usize).map_or([f32::NAN; K], T::row);
+            for (column, value) in columns.iter_mut().zip(row) {
+                column[ray] = value;
+            }
+        }
+        columns.each_ref().map(|column| &column[..index.len()])
+    }
+}
+
+/// Emitters or media of some rays, as numbers.
+#[derive(Clone, Copy)]
+pub(crate) enum Rows<'r, const K: usize> {
+    /// The same for all.
+    One([f32; K]),
+    Each([&'r [f32]; K]),
+}
+
+impl<'r, const K: usize> Rows<'r, K> {
+    /// Those of the rays of `range`.
+    pub(crate) fn part(&self, range: Range<usize>) -> Self {
+        match *self {
+            Self::One(row) => Self::One(row),
+            Self::Each(columns) => Self::Each(columns.map(|column| &column[range.clone()])),
+        }
+    }
+
+    /// Whether rays differ.
+    pub(crate) fn differs(&self) -> bool {
+        matches!(self, Self::Each(_))
+    }
+
+    /// The numbers of lane group `index`.
+    #[cfg_attr(optimized, inline(always))]
+    pub(crate) fn lanes<I: Isa>(&self, isa: I, index: usize) -> [I::V; K] {
+        let mut lanes = [isa.splat(0.0); K];
+        match self {
+            Self::One(row) => {
+                let mut k = 0;
+                while k < K {
+                    lanes[k] = isa.splat(row[k]);
+                    k += 1;
+                }
+            }
+            Self::Each(columns) => {
+                let mut k = 0;
+                while k < K {
+                    lanes[k] = isa.load(&cut::<I>(columns[k], columns[k].len() / I::V::N)[index]);
+                    k += 1;
+                }
+            }
+        }
+        lanes
+    }
+}
