@@ -319,7 +319,9 @@ impl<I: Isa> Geometry<'_, I> {
     pub(crate) fn seen_from(&self, isa: I, from_a: I::Mask, point: &Point<I>) -> [I::V; 2] {
         let way = I::V::select(from_a, self.way_from_a(isa, point.t), self.way_to_b(isa, point.t));
         let end = I::V::select(from_a, self.foot.a, self.foot.b);
-        [self.foot.h * way, end.mul_add(point.t_prime, self.foot.h_squared)]
+        // What rounds to an end may lie before it.
+        let t_prime = point.t_prime.max(self.foot.a).min(self.foot.b);
+        [self.foot.h * way, end.mul_add(t_prime, self.foot.h_squared)]
     }
 
     /// The point at an angle `delta` from an end, with `tau = tan(delta/2)`.

@@ -57,6 +57,44 @@
 //!
 //! The product densities (`strategy/product`) are our own derivation.
 //!
+//! # What may grow
+//!
+//! Later versions may add columns, variants and fields without breaking a caller: batches are made by functions, not by
+//! literals, and matches need a wildcard.
+//!
+//! ```compile_fail,E0639
+//! # use airlight::Rays;
+//! let zero = [0.0];
+//! let rays = Rays { origin: [&zero; 3], direction: [&zero; 3], t_min: &zero, t_max: &zero };
+//! ```
+//!
+//! ```compile_fail,E0639
+//! # use airlight::Samples;
+//! let (mut t, mut pdf) = ([0.0], [0.0]);
+//! let samples = Samples { t: &mut t, pdf: &mut pdf, weight: None, r: None };
+//! ```
+//!
+//! ```compile_fail,E0004
+//! # use airlight::Threads;
+//! # let threads = Threads::Pool;
+//! let threads = match threads {
+//!     Threads::Pool => 2,
+//!     Threads::AtMost(threads) => threads.get(),
+//!     Threads::This => 1,
+//! };
+//! ```
+//!
+//! ```compile_fail,E0638
+//! # use airlight::{Error, Medium};
+//! # let error = Medium::new(-1.0, 0.0, 0.0).unwrap_err();
+//! if let Error::Value { field, value, expected } = error {
+//!     println!("{field} {value} {expected}");
+//! }
+//! ```
+//!
+//! Positions and directions are taken as `impl Into<[f32; 3]>` and given as `[f32; 3]`: glam's `Vec3`, of any version, is
+//! one, and no part of the promise.
+//!
 //! # Reproducibility
 //!
 //! Equal inputs give equal bits, whatever the number of threads, the length of the batch or the place in it. Between

@@ -223,8 +223,8 @@ impl Sampler {
     /// 0 before the sampled interval and 1 beyond it. It is the inverse of `sample`: from `t` back to `u`, which pbrt calls
     /// `Invert`, for bidirectional and primary-sample-space methods.
     ///
-    /// Max error CDF_ERROR beyond the rounding of `t`. What is written for an empty or invalid ray is 0. A NaN in `t` makes its
-    /// ray invalid.
+    /// Of [`Precision::Exact`] the error is 2^-20 at most, at the given `t` as it is. What is written for an empty or invalid ray
+    /// is 0. A NaN in `t` makes its ray invalid.
     ///
     /// ```
     /// # use airlight::{Emitter, Medium, Ray, Sampler, Strategy};

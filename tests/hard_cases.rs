@@ -1,7 +1,6 @@
 //! Inputs that break renderers do not break this one: every bound holds on every family, and what is not a number or
 //! beyond all range comes out finite, in range and counted.
 
-use glam::Vec3;
 use airlight::oracle::Scene;
 use airlight::{Emitter, Medium, Ray, Sampler, Strategy};
 use airlight_tools::backends::distinct;
@@ -9,6 +8,7 @@ use airlight_tools::bounds::bounds;
 use airlight_tools::errors::Errors;
 use airlight_tools::families::Family;
 use airlight_tools::samplers;
+use glam::Vec3;
 
 const RAYS: usize = 1 << 14;
 

@@ -239,7 +239,8 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
         let (c, g) = (|x| isa.splat(x), geometry);
         let [across, along] = g.seen_from(isa, !self.mirrored, point);
         let delta = angle_of(isa, across, along);
-        let first = delta.lt(self.half + self.half);
+        let width = self.half + self.half;
+        let first = delta.lt(width) | self.subtended.le(width);
         let x = I::V::select(first, delta / self.half - c(1.0), c(1.0));
         let below = (x.mul_add(by_halves(x, x * x, &self.integral), -self.below) / self.scale) * self.mass_1;
 

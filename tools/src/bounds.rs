@@ -49,6 +49,7 @@ fn exact(strategy: Strategy, family: Family) -> Vec<Bound> {
         // 2^-20, on lanes that bisect too; seen 5.3e-7. |CDF(t) - u| itself is what `t` resolves: it may exceed by this
         // bound, and no more, what one rounding does to the exact inverse (`cdf_floor`, 0.99 next to an emitter).
         Bound { figure: "cdf_beyond_t_max", read: |e| quantile(&e.cdf_beyond_t, 1.0), limit: 16.0 * ULP },
+        Bound { figure: "cdf_at_t_max", read: |e| quantile(&e.cdf_at_t, 1.0), limit: 16.0 * ULP },
         // 2^-17. Aimed at where |t'_a|/h is at most 1e4; but resolution is a matter of t/h, and the exact inverse, rounded,
         // has 0.99 for such rays too. So it holds wherever half an ulp of t changes the CDF by at most half as much.
         Bound { figure: "cdf_resolved_max", read: |e| quantile(&e.cdf_resolved, 1.0), limit: 128.0 * ULP },

@@ -32,7 +32,7 @@ const DEPTH: f64 = 30.0;
 const TINY: f64 = 1e-30;
 
 /// Kinds of errors that are listed.
-const KINDS: usize = 12;
+const KINDS: usize = 13;
 
 /// The errors of one strategy on one family; the lists ascend.
 #[derive(Clone, Debug, Default)]
@@ -49,6 +49,8 @@ pub struct Errors {
     pub cdf_floor: Vec<f64>,
     /// The distance of `u` from the CDF of all that rounds to `t`: by so much `cdf` may exceed what one rounding makes.
     pub cdf_beyond_t: Vec<f64>,
+    /// `Sampler::cdf` at the returned `t` against the CDF there.
+    pub cdf_at_t: Vec<f64>,
     /// The distance from the nearer end of the interval against that of the exact inverse, in ulp of it and beyond one
     /// rounding of `t`; of the densities with a closed form over the angle.
     pub offset: Vec<f64>,
@@ -109,6 +111,7 @@ impl Errors {
             ("cdf_resolved", &self.cdf_resolved),
             ("cdf_floor", &self.cdf_floor),
             ("cdf_beyond_t", &self.cdf_beyond_t),
+            ("cdf_at_t", &self.cdf_at_t),
             ("offset", &self.offset),
             ("offset_floor", &self.offset_floor),
             ("pdf", &self.pdf),
@@ -126,6 +129,7 @@ impl Errors {
             cdf_resolved,
             cdf_floor,
             cdf_beyond_t,
+            cdf_at_t,
             offset,
             offset_floor,
             pdf,
@@ -141,6 +145,7 @@ impl Errors {
             cdf_resolved,
             cdf_floor,
             cdf_beyond_t,
+            cdf_at_t,
             offset,
             offset_floor,
             pdf,
@@ -189,8 +194,9 @@ struct Outcomes {
     pdf: Vec<f32>,
     weight: Vec<f32>,
     r: Vec<f32>,
-    /// `Sampler::pdf` and `Sampler::evaluate` at `t`.
+    /// `Sampler::pdf`, `Sampler::cdf` and `Sampler::evaluate` at `t`.
     pdf_at_t: Vec<f32>,
+    cdf_at_t: Vec<f32>,
     integrand: Vec<f32>,
     bisected: usize,
 }
@@ -202,6 +208,7 @@ struct Outcome {
     weight: f32,
     r: f32,
     pdf_at_t: f32,
+    cdf_at_t: f32,
     integrand: f32,
 }
 
@@ -210,13 +217,14 @@ impl Outcomes {
         const EQUAL: &str = "all columns have one length";
         let columns = Columns::new(cases);
         let (rays, emitters, media) = (columns.rays(), columns.emitters(), columns.media());
-        let [mut t, mut pdf, mut weight, mut r, mut pdf_at_t, mut integrand] =
-            [(); 6].map(|()| vec![f32::NAN; cases.len()]);
+        let [mut t, mut pdf, mut weight, mut r, mut pdf_at_t, mut cdf_at_t, mut integrand] =
+            [(); 7].map(|()| vec![f32::NAN; cases.len()]);
         let mut samples = Samples::new(&mut t, &mut pdf).weight(&mut weight).r(&mut r);
         let counts = sampler.sample(&rays, &emitters, &media, &columns.u, &mut samples).expect(EQUAL);
         sampler.pdf(&rays, &emitters, &media, &t, &mut pdf_at_t).expect(EQUAL);
+        sampler.cdf(&rays, &emitters, &media, &t, &mut cdf_at_t).expect(EQUAL);
         sampler.evaluate(&rays, &emitters, &media, &t, &mut integrand).expect(EQUAL);
-        Self { t, pdf, weight, r, pdf_at_t, integrand, bisected: counts.bisected }
+        Self { t, pdf, weight, r, pdf_at_t, cdf_at_t, integrand, bisected: counts.bisected }
     }
 
     fn get(&self, i: usize) -> Outcome {
@@ -226,6 +234,7 @@ impl Outcomes {
             weight: self.weight[i],
             r: self.r[i],
             pdf_at_t: self.pdf_at_t[i],
+            cdf_at_t: self.cdf_at_t[i],
             integrand: self.integrand[i],
         }
     }
@@ -244,8 +253,8 @@ struct Row {
 
 impl Row {
     fn new(strategy: Strategy, case: &Case, outcome: &Outcome, weigh: bool) -> Self {
-        let Outcome { t, pdf, weight, r, pdf_at_t, integrand } = *outcome;
-        let all = [t, pdf, weight, r, pdf_at_t, integrand];
+        let Outcome { t, pdf, weight, r, pdf_at_t, cdf_at_t, integrand } = *outcome;
+        let all = [t, pdf, weight, r, pdf_at_t, cdf_at_t, integrand];
         let scene = case.scene().ok().filter(|_| (0.0..=1.0).contains(&case.u));
         let lit = scene.as_ref().and_then(Scene::lit);
         let sampled = pdf > 0.0;
@@ -264,6 +273,7 @@ impl Row {
         let cdf = (scene.cdf(strategy, t.into()) - u).abs();
         let rounding = Rounding::new(&scene, t);
         let cdfs = rounding.ends.map(|t| scene.cdf(strategy, t));
+        let moved = [f64::from(t) - rounding.moved, f64::from(t) + rounding.moved];
         let integrand = integrand_error(&scene, t.into(), integrand.into());
         let near = scene.h() < NEAREST * rounding.scale;
         row.errors = [
@@ -271,6 +281,7 @@ impl Row {
             (cdfs[1] - cdfs[0] <= 2.0 * RESOLVED).then_some(cdf),
             weigh.then(|| cdf_floor(&scene, strategy, u)),
             Some(beyond(cdfs, u)),
+            Some(beyond(moved.map(|t| scene.cdf(strategy, t)), cdf_at_t.into())),
             offset_error(&scene, strategy, rounding.ends, u),
             (weigh && !near).then(|| offset_floor(&scene, strategy, rounding.moved, u)).flatten(),
             pdf_error(&scene, strategy, t.into(), pdf_at_t.into()),

@@ -88,7 +88,7 @@ impl Hash {
 }
 
 /// The hash of all that a strategy gives on a backend: samples with and without weights, of one and of several variates,
-/// densities, integrands, radiances, and one ray by itself.
+/// densities, distribution functions, integrands, radiances, and one ray by itself.
 ///
 /// # Errors
 /// None: the columns have one length.
@@ -112,6 +112,8 @@ pub fn everything(columns: &Columns, strategy: Strategy, backend: Backend) -> Re
         }
         let mut out = vec![0.0; u.len()];
         sampler.pdf(&rays, &emitters, &media, &t, &mut out)?;
+        hash.add(&out);
+        sampler.cdf(&rays, &emitters, &media, &t, &mut out)?;
         hash.add(&out);
         sampler.evaluate(&rays, &emitters, &media, &t, &mut out)?;
         hash.add(&out);
