@@ -1,6 +1,6 @@
 //! What every sampled density is to the kernels: a set-up, an inverse and a pdf.
 
-use crate::geometry::{Geometry, Point, RayLanes};
+use crate::geometry::{Extent, Geometry, Point, RayLanes};
 use crate::integrand::MediumLanes;
 use crate::simd::{Isa, Room};
 
@@ -11,8 +11,8 @@ pub(crate) trait Kind {
 
 /// A density over the distances of a lane group of rays, set up for one geometry and medium.
 pub(crate) trait Density<I: Isa>: Copy {
-    /// Whether it asks for the emitter's cosine.
-    const COSINE: bool;
+    /// How much of the geometry samples and their pdf ask for.
+    const EXTENT: Extent;
     /// Where a variate leads, before it is a point of the ray.
     type Place: Copy;
     /// Storage for the set-ups of a block, which is cut to as many lane groups where set-ups are large.
@@ -51,7 +51,7 @@ impl<I: Isa, D: Density<I>> SetUp<I, D> {
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn new(isa: I, ray: &RayLanes<I>, geometry: Geometry<'_, I>, medium: &MediumLanes<I>) -> Self {
         let (density, lit) = D::new(isa, ray, geometry, medium);
-        Self { density, valid: geometry.foot.valid & medium.valid, lit }
+        Self { density, valid: geometry.lit.valid & medium.valid, lit }
     }
 }
 

@@ -4,6 +4,7 @@ use super::blocks::{Block, Tally, Wanted, for_each_block, for_each_run};
 use super::{Method, Task};
 use crate::Precision;
 use crate::batch::{Column, Counts, Inputs, Outputs, Turn};
+use crate::geometry::Extent;
 use crate::integrand::{MediumLanes, integrand_r2};
 use crate::simd::{GROUPS, Isa, Kernel, Lanes, Machine, none};
 
@@ -30,7 +31,7 @@ impl Kernel for OnGroups<'_> {
     fn run<I: Isa>(self, isa: I) -> Counts {
         let Self { precision, inputs, mut out } = self;
         let (mut tally, mut pad) = (Tally::new(isa, inputs), None);
-        for_each_block(isa, inputs, Wanted { precision, cosine: true, records: GROUPS }, |block| {
+        for_each_block(isa, inputs, Wanted { precision, extent: Extent::Cosine, records: GROUPS }, |block| {
             for_each_run(block, |run| {
                 let t = run.values(inputs.given, &mut pad);
                 Column::of_run(&mut out, run, |out| integrands(isa, block, run.turns, t, out, &mut tally));
@@ -53,7 +54,7 @@ fn integrands<I: Isa>(isa: I, block: &Block<'_, I>, turns: &[Turn], t: &[f32], o
                 media.renew(isa, group, &mut medium);
                 let (ray, geometry) = (rays.lanes(isa, group), geometries.get(turn.record));
                 let t = isa.load(t);
-                let (valid, faced) = (geometry.foot.valid & medium.valid & t.eq(t), geometry.faced(isa));
+                let (valid, faced) = (geometry.lit.valid & medium.valid & t.eq(t), geometry.faced(isa));
                 let inside = valid & faced & ray.t_min.le(t) & t.le(ray.end(isa));
                 let point = geometry.point_at_distance(isa, t);
                 let f = integrand_r2(isa, &ray, geometry, &medium, &point) / (point.r * point.r);

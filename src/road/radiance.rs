@@ -4,6 +4,7 @@ use super::blocks::{Tally, Wanted, for_each_block, set_up};
 use super::{Method, Task};
 use crate::batch::{Column, Counts, Inputs};
 use crate::density::{Density, SetUp};
+use crate::geometry::Extent;
 use crate::simd::{Isa, Kernel, Lanes, Machine, Room, none};
 use crate::strategy::product::{Product, knots};
 use crate::{Precision, Strategy};
@@ -49,7 +50,7 @@ impl<D, const K: usize> Kernel for OnGroups<'_, D, K> {
         let mut tally = Tally::new(isa, inputs);
         let mut set_ups = <Product<I, K> as Density<I>>::SetUps::new();
         let records = <Product<I, K> as Density<I>>::SetUps::SIZE;
-        for_each_block(isa, inputs, Wanted { precision, cosine: true, records }, |block| {
+        for_each_block(isa, inputs, Wanted { precision, extent: Extent::Cosine, records }, |block| {
             let set_ups = set_up::<I, D, Product<I, K>>(isa, block, &mut set_ups);
             isa.vectorize::<D, _>(
                 #[cfg_attr(optimized, inline(always))]

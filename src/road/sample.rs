@@ -5,7 +5,7 @@ use super::{Method, OfDensity, Out, Task, by_strategy};
 use crate::Precision;
 use crate::batch::{Counts, Inputs, OfSamples, Outputs, RayGroups, Samples, Turn};
 use crate::density::{Density, Drawn, Kind, SetUp};
-use crate::geometry::Geometry;
+use crate::geometry::{Extent, Geometry};
 use crate::integrand::{MediumLanes, integrand_r2};
 use crate::simd::{GROUPS, Isa, Lanes, Machine, Records, Room};
 
@@ -42,7 +42,7 @@ impl<const WITH_WEIGHT_OR_R: bool> OfDensity for Drawing<WITH_WEIGHT_OR_R> {
         let mut pad = None;
         let wanted = Wanted {
             precision,
-            cosine: D::On::<I>::COSINE || WITH_WEIGHT_OR_R,
+            extent: if WITH_WEIGHT_OR_R { Extent::Cosine } else { D::On::<I>::EXTENT },
             records: if inputs.per_ray == 1 { GROUPS } else { SetUps::<I, D>::SIZE },
         };
         for_each_block(isa, inputs, wanted, |block| {
