@@ -10,7 +10,7 @@
 mod double;
 mod single;
 
-pub(crate) use single::{Near, clip, find_foot};
+pub(crate) use single::{clip, find_foot};
 
 use crate::scene::{FARTHEST, UNIT_TOLERANCE};
 use crate::simd::math::{angle_of, reciprocal};
@@ -334,7 +334,9 @@ impl<I: Isa> Geometry<'_, I> {
         let Angle { from_a, tan_half: tau } = *angle;
         let (h, h_squared) = (self.foot.h, self.foot.h_squared);
         let of_end = |a: I::V, b: I::V| I::V::select(from_a, a, b);
-        let te = of_end(self.foot.a, -self.foot.b);
+        // Distances towards b, or towards a.
+        let sign = of_end(c(1.0), c(-1.0));
+        let te = sign * of_end(self.foot.a, self.foot.b);
         let re_squared = te.mul_add(te, h_squared);
         let scale = c(1.0) / (-tau).mul_add(h.mul_add(tau, te + te), h);
         let offset = ((tau + tau) * (re_squared * scale)).min(self.lit.length);
@@ -346,8 +348,8 @@ impl<I: Isa> Geometry<'_, I> {
         let way = I::V::select(near_end, offset, t_prime);
         let base = I::V::select(near_end, of_end(self.lit.a.t, self.lit.b.t), self.foot.t_h);
         let low = I::V::select(near_end, of_end(self.lit.a.t_low, self.lit.b.t_low), self.foot.t_h_low);
-        let t = self.within(base + (of_end(way, -way) + low));
-        let t_prime = of_end(t_prime, -t_prime);
+        let t = self.within(base + sign.mul_add(way, low));
+        let t_prime = sign * t_prime;
 
         let rest = self.rest(isa, offset, t_prime, of_end(self.foot.b, self.foot.a));
         let m = self.m_between(isa, of_end(offset, rest), of_end(rest, offset));
@@ -534,9 +536,10 @@ impl<I: Isa> Foot<I> {
     /// `r` by a Newton step of its root: the exponential multiplies an error of the optical depth by the depth.
     #[cfg_attr(optimized, inline(always))]
     fn exact_r(&self, isa: I, point: &Point<I>) -> I::Double {
-        let (t_prime, r) = (point.exact_t_prime(), point.r.widen());
-        let residual = I::V::narrow(t_prime.mul_add(t_prime, self.exact_h_squared()) - r * r);
-        let step = residual * isa.splat(0.5) / point.r;
+        let (t_prime, r) = (point.t_prime.widen(), point.r.widen());
+        let high = I::V::narrow((-r).mul_add(r, t_prime.mul_add(t_prime, self.h_squared.widen())));
+        let low = (point.t_prime + point.t_prime).mul_add(point.t_prime_low, self.h_squared_low);
+        let step = (high + low) * isa.splat(0.5) / point.r;
         r + step.widen()
     }
 }

@@ -61,8 +61,11 @@ impl Run<'_> {
         for (turn, lanes) in self.turns.iter().zip(pad.0.chunks_exact_mut(self.lanes)) {
             // Lanes beyond the rays find no values.
             let of_group = &column[(self.first + turn.record) * self.lanes * self.per_ray..];
-            for (lane, value) in lanes.iter_mut().zip(of_group.iter().skip(turn.index).step_by(self.per_ray)) {
+            let mut at = turn.index;
+            for lane in lanes {
+                let Some(value) = of_group.get(at) else { break };
                 *lane = *value;
+                at += self.per_ray;
             }
         }
         &pad.0[..self.len()]
@@ -74,8 +77,11 @@ impl Run<'_> {
         let result = write(&mut pad.0[..self.len()]);
         for (turn, lanes) in self.turns.iter().zip(pad.0.chunks_exact(self.lanes)) {
             let of_group = &mut column[(self.first + turn.record) * self.lanes * self.per_ray..];
-            for (value, lane) in of_group.iter_mut().skip(turn.index).step_by(self.per_ray).zip(lanes) {
+            let mut at = turn.index;
+            for lane in lanes {
+                let Some(value) = of_group.get_mut(at) else { break };
                 *value = *lane;
+                at += self.per_ray;
             }
         }
         result

@@ -2,9 +2,9 @@
 //!
 //! ```text
 //! e = y - o                       q = |d|^2 - 1, and |d| - 1 = q/2 - q^2/8
-//! s = e.d, tau = s - q s          f = tau d - e, the foot of the perpendicular but for rho = f.d along d
+//! s = e.d, tau = s - 2 (|d|-1) s  f = tau d - e, the foot of the perpendicular but for rho = f.d along d
 //! t_h = tau + (tau (|d| - 1) - rho)                      h^2 = f.f - rho^2
-//! m(t) = n.(x - y) = beta t - n.e                        beta = n.d / |d|
+//! m(t) = n.(x - y) = beta t - n.e                        beta = n.d / |d|, and n.f - beta rho at the foot
 //! near = t_min - m(t_min)/beta                           t_n = near - m(near)/beta, where N = 0
 //! ```
 //!
@@ -44,24 +44,14 @@ pub(super) const UNIT: f32 = 2e-5;
 /// smaller for others.
 const WIDEST: f32 = PLAIN * 1e-4;
 
-/// What clipping hands on to the foot, which it is near.
-#[derive(Clone, Copy)]
-pub(crate) struct Near<I: Isa> {
-    /// `|d| - 1`.
-    excess: I::V,
-    /// `tau`, and `m` there.
-    tau: I::V,
-    m_tau: I::V,
-}
-
-/// The part of the ray that the emitter faces, with `m` at its ends where the `COSINE` is wanted. Unless the `FOOT` is
-/// wanted, it is the whole ray if any of it is lit.
+/// The part of the ray that the emitter faces, with `m` at its ends where the `COSINE` is wanted; and `|d| - 1`, for the
+/// foot. Unless the `FOOT` is wanted, it is the whole ray if any of it is lit.
 #[cfg_attr(optimized, inline(always))]
 pub(crate) fn clip<I: Isa, const EXACT: bool, const FOOT: bool, const COSINE: bool>(
     isa: I,
     ray: &RayLanes<I>,
     emitter: &EmitterLanes<I>,
-) -> (Lit<I>, Near<I>, Cosine<I>) {
+) -> (Lit<I>, I::V, Cosine<I>) {
     let c = |x| isa.splat(x);
     let zero = c(0.0);
     let (d, n) = (ray.direction, emitter.normal);
@@ -106,7 +96,7 @@ pub(crate) fn clip<I: Isa, const EXACT: bool, const FOOT: bool, const COSINE: bo
     if !FOOT {
         let [a, b] = [t_min, t_max].map(|t| End { t, t_low: zero });
         let lit = Lit { a, b, length: I::V::only(!(dark_a & dark_b), t_max - t_min), valid: easy };
-        return (lit, Near { excess: zero, tau: zero, m_tau: zero }, Cosine::none(isa));
+        return (lit, excess, Cosine::none(isa));
     }
 
     let inv_beta = c(1.0) / beta;
@@ -128,17 +118,9 @@ pub(crate) fn clip<I: Isa, const EXACT: bool, const FOOT: bool, const COSINE: bo
     let (a, b) = (I::V::select(dark_a, t_n, t_min), I::V::select(dark_b, t_n, t_max));
     let (a_low, b_low) = (I::V::only(dark_a, t_n_low), I::V::only(dark_b, t_n_low));
     let length = I::V::only(!(dark_a & dark_b), (b - a) + (b_low - a_low));
-
-    let s = dot(e, d);
-    let tau = (-q).mul_add(s, s);
-    let m_tau = match (COSINE, EXACT) {
-        (false, _) => zero,
-        (true, false) => beta.mul_add(tau, m_0),
-        (true, true) => I::V::narrow(beta_64.mul_add(tau.widen(), m_0_64)) + beta_low * tau,
-    };
     let lit = Lit { a: End { t: a, t_low: a_low }, b: End { t: b, t_low: b_low }, length, valid: easy };
     let cosine = Cosine { m_least: I::V::only(!dark, m_least), beta, has_normal: emitter.has_normal };
-    (lit, Near { excess, tau, m_tau }, cosine)
+    (lit, excess, cosine)
 }
 
 /// The foot of the perpendicular, with `alpha_h` where the `COSINE` is wanted, and which lanes are easy.
@@ -148,27 +130,31 @@ pub(crate) fn find_foot<I: Isa, const EXACT: bool, const COSINE: bool>(
     ray: &RayLanes<I>,
     emitter: &EmitterLanes<I>,
     lit: &Lit<I>,
-    near: &Near<I>,
+    excess: I::V,
     cosine: &Cosine<I>,
 ) -> (Foot<I>, I::Mask) {
     let c = |x| isa.splat(x);
     let zero = c(0.0);
     let (d, t_min) = (ray.direction, ray.t_min);
-    let (Lit { a, b, valid, .. }, Near { excess, tau, m_tau }) = (*lit, *near);
+    let Lit { a, b, valid, .. } = *lit;
 
-    let (o, y) = (ray.origin, emitter.position);
-    let (rho, h_squared, h_squared_low);
+    let (o, y, n) = (ray.origin, emitter.position, emitter.normal);
+    let s = dot([y[0] - o[0], y[1] - o[1], y[2] - o[2]], d);
+    let tau = (-excess).mul_add(s + s, s);
+    // And n.f.
+    let (rho, h_squared, h_squared_low, m_f);
     if EXACT {
-        let (o, d, y, tau) = (widen::<I>(o), widen::<I>(d), widen::<I>(y), tau.widen());
+        let (o, d, y, n, tau) = (widen::<I>(o), widen::<I>(d), widen::<I>(y), widen::<I>(n), tau.widen());
         let f = [tau.mul_add(d[0], o[0] - y[0]), tau.mul_add(d[1], o[1] - y[1]), tau.mul_add(d[2], o[2] - y[2])];
         let exact_rho = dot(f, d);
         let exact = (-exact_rho).mul_add(exact_rho, dot(f, f));
         (rho, h_squared) = (I::V::narrow(exact_rho), I::V::narrow(exact));
         h_squared_low = I::V::narrow(exact - h_squared.widen());
+        m_f = if COSINE { I::V::narrow(dot(n, f)) } else { zero };
     } else {
         let f = [tau.mul_add(d[0], o[0] - y[0]), tau.mul_add(d[1], o[1] - y[1]), tau.mul_add(d[2], o[2] - y[2])];
         rho = dot(f, d);
-        (h_squared, h_squared_low) = ((-rho).mul_add(rho, dot(f, f)), zero);
+        (h_squared, h_squared_low, m_f) = ((-rho).mul_add(rho, dot(f, f)), zero, dot(n, f));
     }
     let tau_low = tau.mul_add(excess, -rho);
     let ([from_a, left_a], [from_b, left_b]) = (two_difference(a.t, tau), two_difference(b.t, tau));
@@ -177,7 +163,7 @@ pub(crate) fn find_foot<I: Isa, const EXACT: bool, const COSINE: bool>(
     } else {
         (from_a - tau_low, from_b - tau_low)
     };
-    let alpha_h = if COSINE { I::V::only(cosine.has_normal, cosine.beta.mul_add(tau_low, m_tau)) } else { zero };
+    let alpha_h = if COSINE { I::V::only(cosine.has_normal, (-rho).mul_add(cosine.beta, m_f)) } else { zero };
 
     let h = h_squared.sqrt();
     let least = t_min.mul_add(c(NEAR_OF_T_MIN), tau.abs().mul_add(c(NEAR), c(NEAREST)));

@@ -9,7 +9,7 @@
 use crate::Precision;
 use crate::batch::{Counts, Emitters, Inputs, Run, Turn};
 use crate::density::{Density, Kind, SetUp};
-use crate::geometry::{Cosine, Extent, Foot, Geometry, Lit, Near, clip, find_foot, in_f64, pick};
+use crate::geometry::{Cosine, Extent, Foot, Geometry, Lit, clip, find_foot, in_f64, pick};
 use crate::simd::{GROUPS, Isa, Lanes, MOST_LANES, Records, Room, none};
 use core::ops::Range;
 
@@ -137,7 +137,8 @@ pub(super) fn for_each_block<I: Isa>(
 /// Place for the records of a block's geometry.
 struct Places<I: Isa> {
     lits: Records<Lit<I>>,
-    nears: Records<Near<I>>,
+    /// `|d| - 1`.
+    excesses: Records<I::V>,
     cosines: Records<Cosine<I>>,
     feet: Records<Foot<I>>,
 }
@@ -145,7 +146,7 @@ struct Places<I: Isa> {
 impl<I: Isa> Places<I> {
     #[cfg_attr(optimized, inline(always))]
     fn new() -> Self {
-        Self { lits: Records::new(), nears: Records::new(), cosines: Records::new(), feet: Records::new() }
+        Self { lits: Records::new(), excesses: Records::new(), cosines: Records::new(), feet: Records::new() }
     }
 }
 
@@ -230,8 +231,8 @@ fn in_single<I: Isa, const EXACT: bool, const FOOT: bool, const COSINE: bool, co
         || {
             let rays = inputs.ray_groups::<I>();
             let mut emitter = inputs.emitters.lanes(isa, groups.start);
-            let (mut lits, mut nears) = (places.lits.start(), places.nears.start());
-            let (mut cosines, mut feet) = (places.cosines.start(), places.feet.start());
+            let (mut lits, mut excesses) = (places.lits.start(), places.excesses.start());
+            let mut cosines = places.cosines.start();
             let (mut every, mut any) = (!none(isa), none(isa));
             for group in groups.clone() {
                 rays.prefetch(isa, group, AHEAD);
@@ -239,27 +240,20 @@ fn in_single<I: Isa, const EXACT: bool, const FOOT: bool, const COSINE: bool, co
                     emitter = inputs.emitters.lanes(isa, group);
                 }
                 let ray = rays.lanes(isa, group);
-                let (mut lit, near, cosine) = clip::<I, EXACT, FOOT, COSINE>(isa, &ray, &emitter);
-                if FOOT && EXACT {
-                    nears.push(near);
-                } else if FOOT {
-                    let foot;
-                    (foot, lit.valid) = find_foot::<I, EXACT, COSINE>(isa, &ray, &emitter, &lit, &near, &cosine);
-                    feet.push(foot);
-                }
+                let (lit, excess, cosine) = clip::<I, EXACT, FOOT, COSINE>(isa, &ray, &emitter);
                 (every, any) = (every & lit.valid, any | lit.valid);
                 lits.push(lit);
                 if COSINE {
                     cosines.push(cosine);
                 }
+                if FOOT {
+                    excesses.push(excess);
+                }
             }
             lits.done();
-            nears.done();
+            excesses.done();
             if COSINE {
                 cosines.done();
-            }
-            if FOOT && !EXACT {
-                feet.done();
             }
             [I::V::bits(!every) == 0, I::V::bits(any) != 0]
         },
@@ -268,8 +262,8 @@ fn in_single<I: Isa, const EXACT: bool, const FOOT: bool, const COSINE: bool, co
         return in_double::<I, FOOT, COSINE>(isa, inputs, groups, places);
     }
     // Apart: the two together do not fit the registers.
-    if FOOT && EXACT {
-        every = find_feet::<I, COSINE, EACH>(isa, inputs, groups.start, places);
+    if FOOT {
+        every = find_feet::<I, EXACT, COSINE, EACH>(isa, inputs, groups.start, places);
     }
     if !every {
         rescue::<I, FOOT, COSINE>(isa, inputs, groups.start, places);
@@ -277,7 +271,7 @@ fn in_single<I: Isa, const EXACT: bool, const FOOT: bool, const COSINE: bool, co
 }
 
 /// The feet of the perpendiculars after the lit intervals; whether all lanes are easy.
-fn find_feet<I: Isa, const COSINE: bool, const EACH: bool>(
+fn find_feet<I: Isa, const EXACT: bool, const COSINE: bool, const EACH: bool>(
     isa: I,
     inputs: &Inputs<'_>,
     start: usize,
@@ -289,16 +283,17 @@ fn find_feet<I: Isa, const COSINE: bool, const EACH: bool>(
             let rays = inputs.ray_groups::<I>();
             let mut emitter = inputs.emitters.lanes(isa, start);
             let lits = places.lits.written();
-            let (nears, cosines) = (&places.nears.written()[..lits.len()], &places.cosines.written()[..lits.len()]);
+            let (excesses, cosines) =
+                (&places.excesses.written()[..lits.len()], &places.cosines.written()[..lits.len()]);
             let mut feet = places.feet.start();
             let mut every = !none(isa);
             for (record, lit) in lits.iter_mut().enumerate() {
                 if EACH {
                     emitter = inputs.emitters.lanes(isa, start + record);
                 }
-                let (ray, near, cosine) = (rays.lanes(isa, start + record), &nears[record], &cosines[record]);
+                let (ray, excess, cosine) = (rays.lanes(isa, start + record), excesses[record], &cosines[record]);
                 let foot;
-                (foot, lit.valid) = find_foot::<I, true, COSINE>(isa, &ray, &emitter, lit, near, cosine);
+                (foot, lit.valid) = find_foot::<I, EXACT, COSINE>(isa, &ray, &emitter, lit, excess, cosine);
                 every = every & lit.valid;
                 feet.push(foot);
             }

@@ -4,8 +4,8 @@ use super::blocks::{AHEAD, Block, Geometries, SetUps, Tally, Wanted, for_each_bl
 use super::{Method, OfDensity, Out, Task, by_strategy};
 use crate::Precision;
 use crate::batch::{Counts, Inputs, OfSamples, Outputs, RayGroups, Samples, Turn};
-use crate::density::{Density, Drawn, Kind, SetUp};
-use crate::geometry::{Extent, Geometry};
+use crate::density::{Density, Kind, SetUp};
+use crate::geometry::{Extent, Geometry, Point};
 use crate::integrand::{MediumLanes, integrand_r2};
 use crate::simd::{GROUPS, Isa, Lanes, Machine, Records, Room};
 
@@ -213,7 +213,9 @@ pub(super) fn invert<'r, I: Isa, D: Kind>(
 /// A point that was drawn, and for which lanes.
 #[derive(Clone, Copy)]
 struct Sampled<I: Isa> {
-    drawn: Drawn<I>,
+    point: Point<I>,
+    /// The pdf times `r^2` \[m\].
+    times_r2: I::V,
     sampled: I::Mask,
 }
 
@@ -294,7 +296,7 @@ fn draw_one<I: Isa, D: Kind>(
     isa.store(I::V::only(sampled, drawn.point.t), t);
     isa.store(I::V::only(sampled, drawn.pdf.over_t), pdf);
     tally.add(*valid, sampled, drawn.bisected);
-    Sampled { drawn, sampled }
+    Sampled { point: drawn.point, times_r2: drawn.pdf.times_r2, sampled }
 }
 
 /// What the points weigh, and how far they are from the emitter.
@@ -303,22 +305,23 @@ fn weigh<I: Isa>(isa: I, block: &Block<'_, I>, turns: &[Turn], points: &[Sampled
         #[cfg_attr(optimized, inline(always))]
         || {
             if let Some(r) = &mut out.r {
-                for (Sampled { drawn, sampled }, r) in points.iter().zip(I::groups_mut(r)) {
-                    isa.store(I::V::only(*sampled, drawn.point.r), r);
+                for (Sampled { point, sampled, .. }, r) in points.iter().zip(I::groups_mut(r)) {
+                    isa.store(I::V::only(*sampled, point.r), r);
                 }
             }
             let Some(weight) = &mut out.weight else { return };
             let (rays, media) = (block.inputs.ray_groups::<I>(), &block.inputs.media);
             let mut medium = media.lanes(isa, block.groups.start);
             let geometries = block.geometries();
-            for ((turn, Sampled { drawn, sampled }), weight) in turns.iter().zip(points).zip(I::groups_mut(weight)) {
+            for ((turn, Sampled { point, times_r2, sampled }), weight) in
+                turns.iter().zip(points).zip(I::groups_mut(weight))
+            {
                 let group = block.groups.start + turn.record;
                 media.renew(isa, group, &mut medium);
                 let (ray, geometry) = (rays.lanes(isa, group), geometries.get(turn.record));
-                let times_r2 = drawn.pdf.times_r2;
-                let f = integrand_r2(isa, &ray, geometry, &medium, &drawn.point);
-                let value = (f / times_r2).min(isa.splat(f32::MAX));
-                isa.store(I::V::only(*sampled & isa.splat(0.0).lt(times_r2), value), weight);
+                let f = integrand_r2(isa, &ray, geometry, &medium, point);
+                let value = (f / *times_r2).min(isa.splat(f32::MAX));
+                isa.store(I::V::only(*sampled & isa.splat(0.0).lt(*times_r2), value), weight);
             }
         },
     );
