@@ -1,8 +1,8 @@
 //! What every sampled density is to the kernels: a set-up, an inverse and a pdf.
 
-use crate::geometry::{Geometry, Point, RayLanes};
+use crate::geometry::{Extent, Geometry, Point, RayLanes};
 use crate::integrand::MediumLanes;
-use crate::simd::{Isa, Room};
+use crate::simd::{Isa, Lanes, Room};
 
 /// A density of which the instruction set is open.
 pub(crate) trait Kind {
@@ -11,8 +11,8 @@ pub(crate) trait Kind {
 
 /// A density over the distances of a lane group of rays, set up for one geometry and medium.
 pub(crate) trait Density<I: Isa>: Copy {
-    /// Whether it asks for the emitter's cosine.
-    const COSINE: bool;
+    /// How much of the geometry samples and their pdf ask for.
+    const EXTENT: Extent;
     /// Where a variate leads, before it is a point of the ray.
     type Place: Copy;
     /// Storage for the set-ups of a block, which is cut to as many lane groups where set-ups are large.
@@ -30,8 +30,15 @@ pub(crate) trait Density<I: Isa>: Copy {
     /// The density at a point of the support.
     fn pdf(&self, isa: I, geometry: Geometry<'_, I>, point: &Point<I>) -> Pdf<I>;
 
-    /// The distribution function at a point of the support, but for rounding.
+    /// The distribution function at a point within the support, but for rounding.
     fn cdf(&self, isa: I, geometry: Geometry<'_, I>, point: &Point<I>) -> I::V;
+
+    /// Whether `t` is at or before the start of the support, and at or beyond its end. Unlike the ends of
+    /// [`support`](Self::support) these are not rounded.
+    #[cfg_attr(optimized, inline(always))]
+    fn outside(&self, isa: I, geometry: Geometry<'_, I>, t: I::V) -> [I::Mask; 2] {
+        [geometry.way_from_a(isa, t).le(isa.splat(0.0)), geometry.way_to_b(isa, t).le(isa.splat(0.0))]
+    }
 
     /// The distances `[low, high]` that are sampled \[m\].
     #[cfg_attr(optimized, inline(always))]
@@ -54,7 +61,7 @@ impl<I: Isa, D: Density<I>> SetUp<I, D> {
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn new(isa: I, ray: &RayLanes<I>, geometry: Geometry<'_, I>, medium: &MediumLanes<I>) -> Self {
         let (density, lit) = D::new(isa, ray, geometry, medium);
-        Self { density, valid: geometry.foot.valid & medium.valid, lit }
+        Self { density, valid: geometry.lit.valid & medium.valid, lit }
     }
 }
 

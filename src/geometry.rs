@@ -10,11 +10,22 @@
 mod double;
 mod single;
 
-pub(crate) use single::{Clipped, clip, find_foot, unknown};
+pub(crate) use single::{clip, find_foot};
 
 use crate::scene::{FARTHEST, UNIT_TOLERANCE};
 use crate::simd::math::{angle_of, reciprocal};
 use crate::simd::{Double, Isa, Lanes, Number, none};
+
+/// How much of the geometry is asked for: each has what those before it have.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Extent {
+    /// Whether anything is lit.
+    Lit,
+    /// What is lit, and the foot of the perpendicular.
+    Foot,
+    /// The emitter's cosine.
+    Cosine,
+}
 
 /// The rays of a lane group.
 pub(crate) struct RayLanes<I: Isa> {
@@ -80,14 +91,16 @@ pub(crate) struct Lit<I: Isa> {
     pub(crate) b: End<I>,
     /// `t_b - t_a` \[m\]; 0 where nothing is lit.
     pub(crate) length: I::V,
+    /// Which lanes hold a ray and an emitter at all; in f32 which of them need no f64.
+    pub(crate) valid: I::Mask,
 }
 
 /// The emitter's cosine N along the ray, as `m = n.(x - y) = N r` \[m\].
 #[derive(Clone, Copy)]
 pub(crate) struct Cosine<I: Isa> {
-    /// `m` at the ends of the lit interval, whatever it is without a normal: exactly 0 where the interval was clipped.
-    pub(crate) m_a: I::V,
-    pub(crate) m_b: I::V,
+    /// `m` at the end of the lit interval where it is smaller, `a` where `beta >= 0`, else `b`; whatever it is without a
+    /// normal, and exactly 0 where the interval was clipped.
+    pub(crate) m_least: I::V,
     /// `beta = n.d`, by which `m` grows along the ray.
     pub(crate) beta: I::V,
     /// Which lanes have an emitter with a normal.
@@ -99,7 +112,13 @@ impl<I: Isa> Cosine<I> {
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn none(isa: I) -> Self {
         let zero = isa.splat(0.0);
-        Self { m_a: zero, m_b: zero, beta: zero, has_normal: none(isa) }
+        Self { m_least: zero, beta: zero, has_normal: none(isa) }
+    }
+
+    /// Where `m` grows along the ray, or stays.
+    #[cfg_attr(optimized, inline(always))]
+    pub(crate) fn rising(&self, isa: I) -> I::Mask {
+        isa.splat(0.0).le(self.beta)
     }
 }
 
@@ -127,8 +146,6 @@ pub(crate) struct Foot<I: Isa> {
     pub(crate) b: I::V,
     /// `m` at the foot \[m\]: with `beta`, `m = alpha_h + beta t'`, (21).
     pub(crate) alpha_h: I::V,
-    /// Which lanes hold a ray and an emitter at all; in f32 which of them need no f64.
-    pub(crate) valid: I::Mask,
 }
 
 /// The geometry of a lane group.
@@ -194,10 +211,10 @@ pub(crate) fn pick<I: Isa>(hard: I::Mask, yes: &Located<I>, no: Geometry<'_, I>)
             a: end(&lit.a, &no.lit.a),
             b: end(&lit.b, &no.lit.b),
             length: I::V::select(hard, lit.length, no.lit.length),
+            valid: (hard & lit.valid) | (!hard & no.lit.valid),
         },
         Cosine {
-            m_a: I::V::select(hard, cosine.m_a, no.cosine.m_a),
-            m_b: I::V::select(hard, cosine.m_b, no.cosine.m_b),
+            m_least: I::V::select(hard, cosine.m_least, no.cosine.m_least),
             beta: I::V::select(hard, cosine.beta, no.cosine.beta),
             has_normal: cosine.has_normal,
         },
@@ -210,7 +227,6 @@ pub(crate) fn pick<I: Isa>(hard: I::Mask, yes: &Located<I>, no: Geometry<'_, I>)
             a: I::V::select(hard, foot.a, no.foot.a),
             b: I::V::select(hard, foot.b, no.foot.b),
             alpha_h: I::V::select(hard, foot.alpha_h, no.foot.alpha_h),
-            valid: (hard & foot.valid) | (!hard & no.foot.valid),
         },
     )
 }
@@ -246,7 +262,8 @@ impl<I: Isa> Geometry<'_, I> {
     pub(crate) fn ends(&self, isa: I) -> Ends<I> {
         let r = [self.foot.r(self.foot.a), self.foot.r(self.foot.b)];
         let cosine = |m: I::V, r: I::V| I::V::select(self.cosine.has_normal, m / r, isa.splat(1.0));
-        Ends { r, n: [cosine(self.cosine.m_a, r[0]), cosine(self.cosine.m_b, r[1])] }
+        let [m_a, m_b] = self.m_at_ends(isa);
+        Ends { r, n: [cosine(m_a, r[0]), cosine(m_b, r[1])] }
     }
 
     /// Which lanes have more than 1e-25 of the light that an emitter faced squarely would give: below that N has no more
@@ -319,9 +336,7 @@ impl<I: Isa> Geometry<'_, I> {
     pub(crate) fn seen_from(&self, isa: I, from_a: I::Mask, point: &Point<I>) -> [I::V; 2] {
         let way = I::V::select(from_a, self.way_from_a(isa, point.t), self.way_to_b(isa, point.t));
         let end = I::V::select(from_a, self.foot.a, self.foot.b);
-        // What rounds to an end may lie before it.
-        let t_prime = point.t_prime.max(self.foot.a).min(self.foot.b);
-        [self.foot.h * way, end.mul_add(t_prime, self.foot.h_squared)]
+        [self.foot.h * way, end.mul_add(point.t_prime, self.foot.h_squared)]
     }
 
     /// The point at an angle `delta` from an end, with `tau = tan(delta/2)`.
@@ -334,7 +349,9 @@ impl<I: Isa> Geometry<'_, I> {
         let Angle { from_a, tan_half: tau } = *angle;
         let (h, h_squared) = (self.foot.h, self.foot.h_squared);
         let of_end = |a: I::V, b: I::V| I::V::select(from_a, a, b);
-        let te = of_end(self.foot.a, -self.foot.b);
+        // Distances towards b, or towards a.
+        let sign = of_end(c(1.0), c(-1.0));
+        let te = sign * of_end(self.foot.a, self.foot.b);
         let re_squared = te.mul_add(te, h_squared);
         let scale = c(1.0) / (-tau).mul_add(h.mul_add(tau, te + te), h);
         let offset = ((tau + tau) * (re_squared * scale)).min(self.lit.length);
@@ -346,8 +363,8 @@ impl<I: Isa> Geometry<'_, I> {
         let way = I::V::select(near_end, offset, t_prime);
         let base = I::V::select(near_end, of_end(self.lit.a.t, self.lit.b.t), self.foot.t_h);
         let low = I::V::select(near_end, of_end(self.lit.a.t_low, self.lit.b.t_low), self.foot.t_h_low);
-        let t = self.within(base + (of_end(way, -way) + low));
-        let t_prime = of_end(t_prime, -t_prime);
+        let t = self.within(base + sign.mul_add(way, low));
+        let t_prime = sign * t_prime;
 
         let rest = self.rest(isa, offset, t_prime, of_end(self.foot.b, self.foot.a));
         let m = self.m_between(isa, of_end(offset, rest), of_end(rest, offset));
@@ -362,12 +379,19 @@ impl<I: Isa> Geometry<'_, I> {
         Point { t, t_prime, t_prime_low: isa.splat(0.0), r: self.foot.r(t_prime), m }
     }
 
-    /// `m` from the end where N is smaller: both terms are positive.
+    /// `m` from the end where it is smaller: both terms are positive.
     #[cfg_attr(optimized, inline(always))]
     fn m_between(&self, isa: I, from_a: I::V, to_b: I::V) -> I::V {
-        let rising = isa.splat(0.0).le(self.cosine.beta);
-        let m_end = I::V::select(rising, self.cosine.m_a, self.cosine.m_b);
-        self.cosine.beta.abs().mul_add(I::V::select(rising, from_a, to_b), m_end)
+        let rising = self.cosine.rising(isa);
+        self.cosine.beta.abs().mul_add(I::V::select(rising, from_a, to_b), self.cosine.m_least)
+    }
+
+    /// `m` at the ends of the lit interval.
+    #[cfg_attr(optimized, inline(always))]
+    fn m_at_ends(&self, isa: I) -> [I::V; 2] {
+        let (rising, least) = (self.cosine.rising(isa), self.cosine.m_least);
+        let most = self.cosine.beta.abs().mul_add(self.lit.length, least);
+        [I::V::select(rising, least, most), I::V::select(rising, most, least)]
     }
 
     /// The same with the `t'` and the `r` of what was rounded to `t`, where `t` is smaller than about `r` and so resolves
@@ -403,7 +427,8 @@ impl<I: Isa> Geometry<'_, I> {
     /// The start of the lit interval, given `r` there.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn start(&self, isa: I, r_a: I::V) -> Point<I> {
-        Point { t: self.lit.a.t, t_prime: self.foot.a, t_prime_low: isa.splat(0.0), r: r_a, m: self.cosine.m_a }
+        let [m, _] = self.m_at_ends(isa);
+        Point { t: self.lit.a.t, t_prime: self.foot.a, t_prime_low: isa.splat(0.0), r: r_a, m }
     }
 
     /// `X` and `r` \[m\] in f64 at the ends of the lit interval, given `r` there as rounded.
@@ -465,6 +490,14 @@ impl<I: Isa> Geometry<'_, I> {
 }
 
 impl<I: Isa> Foot<I> {
+    /// One that nothing asks for.
+    #[cfg_attr(optimized, inline(always))]
+    pub(crate) fn none(isa: I) -> Self {
+        let zero = isa.splat(0.0);
+        let (t_h, t_h_low, h_squared_low) = (zero, zero, zero);
+        Self { h: zero, h_squared: zero, h_squared_low, t_h, t_h_low, a: zero, b: zero, alpha_h: zero }
+    }
+
     /// The distance to the emitter \[m\].
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn r(&self, t_prime: I::V) -> I::V {
@@ -518,9 +551,10 @@ impl<I: Isa> Foot<I> {
     /// `r` by a Newton step of its root: the exponential multiplies an error of the optical depth by the depth.
     #[cfg_attr(optimized, inline(always))]
     fn exact_r(&self, isa: I, point: &Point<I>) -> I::Double {
-        let (t_prime, r) = (point.exact_t_prime(), point.r.widen());
-        let residual = I::V::narrow(t_prime.mul_add(t_prime, self.exact_h_squared()) - r * r);
-        let step = residual * isa.splat(0.5) / point.r;
+        let (t_prime, r) = (point.t_prime.widen(), point.r.widen());
+        let high = I::V::narrow((-r).mul_add(r, t_prime.mul_add(t_prime, self.h_squared.widen())));
+        let low = (point.t_prime + point.t_prime).mul_add(point.t_prime_low, self.h_squared_low);
+        let step = (high + low) * isa.splat(0.5) / point.r;
         r + step.widen()
     }
 }

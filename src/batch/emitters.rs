@@ -1,6 +1,6 @@
 //! The emitter of each ray.
 
-use super::source::{Entry, Rows, Source};
+use super::source::{Entry, RowGroups, Source};
 use crate::geometry::EmitterLanes;
 use crate::scene::Emitter;
 use crate::simd::Isa;
@@ -75,10 +75,10 @@ impl Entry<6> for Emitter {
     }
 }
 
-impl Rows<'_, 6> {
+impl<I: Isa> RowGroups<'_, I, 6> {
     /// The emitters of lane group `index`.
     #[cfg_attr(optimized, inline(always))]
-    pub(crate) fn emitters<I: Isa>(&self, isa: I, index: usize) -> EmitterLanes<I> {
+    pub(crate) fn emitters(&self, isa: I, index: usize) -> EmitterLanes<I> {
         let [px, py, pz, nx, ny, nz] = self.lanes(isa, index);
         EmitterLanes::new(isa, [px, py, pz], [nx, ny, nz])
     }

@@ -1,6 +1,6 @@
 //! The medium of each ray.
 
-use super::source::{Entry, Rows, Source};
+use super::source::{Entry, RowGroups, Source};
 use crate::integrand::MediumLanes;
 use crate::scene::Medium;
 use crate::simd::Isa;
@@ -62,18 +62,18 @@ impl Entry<3> for Medium {
     }
 }
 
-impl Rows<'_, 3> {
+impl<I: Isa> RowGroups<'_, I, 3> {
     /// The media of lane group `index`.
     #[cfg_attr(optimized, inline(always))]
-    pub(crate) fn media<I: Isa>(&self, isa: I, index: usize) -> MediumLanes<I> {
+    pub(crate) fn media(&self, isa: I, index: usize) -> MediumLanes<I> {
         let [mu_a, mu_s, g] = self.lanes(isa, index);
         MediumLanes::new(isa, mu_a, mu_s, g)
     }
 
     /// Those of another group than that of `lanes`.
     #[cfg_attr(optimized, inline(always))]
-    pub(crate) fn renew<I: Isa>(&self, isa: I, index: usize, lanes: &mut MediumLanes<I>) {
-        if self.differs() {
+    pub(crate) fn renew(&self, isa: I, index: usize, lanes: &mut MediumLanes<I>) {
+        if self.differ() {
             *lanes = self.media(isa, index);
         }
     }

@@ -61,8 +61,11 @@ impl Run<'_> {
         for (turn, lanes) in self.turns.iter().zip(pad.0.chunks_exact_mut(self.lanes)) {
             // Lanes beyond the rays find no values.
             let of_group = &column[(self.first + turn.record) * self.lanes * self.per_ray..];
-            for (lane, of_ray) in lanes.iter_mut().zip(of_group.chunks(self.per_ray)) {
-                *lane = of_ray[turn.index];
+            let mut at = turn.index;
+            for lane in lanes {
+                let Some(value) = of_group.get(at) else { break };
+                *lane = *value;
+                at += self.per_ray;
             }
         }
         &pad.0[..self.len()]
@@ -74,8 +77,11 @@ impl Run<'_> {
         let result = write(&mut pad.0[..self.len()]);
         for (turn, lanes) in self.turns.iter().zip(pad.0.chunks_exact(self.lanes)) {
             let of_group = &mut column[(self.first + turn.record) * self.lanes * self.per_ray..];
-            for (lane, of_ray) in lanes.iter().zip(of_group.chunks_mut(self.per_ray)) {
-                of_ray[turn.index] = *lane;
+            let mut at = turn.index;
+            for lane in lanes {
+                let Some(value) = of_group.get_mut(at) else { break };
+                *value = *lane;
+                at += self.per_ray;
             }
         }
         result

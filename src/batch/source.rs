@@ -107,31 +107,61 @@ impl<'r, const K: usize> Rows<'r, K> {
         }
     }
 
-    /// Whether rays differ.
-    pub(crate) fn differs(&self) -> bool {
-        matches!(self, Self::Each(_))
-    }
-
-    /// The numbers of lane group `index`.
+    /// Their lane groups.
     #[cfg_attr(optimized, inline(always))]
-    pub(crate) fn lanes<I: Isa>(&self, isa: I, index: usize) -> [I::V; K] {
-        let mut lanes = [isa.splat(0.0); K];
-        match self {
+    pub(crate) fn groups<I: Isa>(&self, isa: I) -> RowGroups<'r, I, K> {
+        match *self {
             Self::One(row) => {
+                let mut lanes = [isa.splat(0.0); K];
                 let mut k = 0;
                 while k < K {
                     lanes[k] = isa.splat(row[k]);
                     k += 1;
                 }
+                RowGroups::One(lanes)
             }
             Self::Each(columns) => {
-                let mut k = 0;
+                // Equal lengths remove bounds checks.
+                let count = columns[0].len() / I::V::N;
+                let mut groups = [cut::<I>(columns[0], count); K];
+                let mut k = 1;
                 while k < K {
-                    lanes[k] = isa.load(&cut::<I>(columns[k], columns[k].len() / I::V::N)[index]);
+                    groups[k] = cut::<I>(columns[k], count);
                     k += 1;
                 }
+                RowGroups::Each(groups)
             }
         }
-        lanes
+    }
+}
+
+/// The same in lane groups.
+pub(crate) enum RowGroups<'r, I: Isa, const K: usize> {
+    One([I::V; K]),
+    Each([&'r [I::Group]; K]),
+}
+
+impl<I: Isa, const K: usize> RowGroups<'_, I, K> {
+    /// Whether rays differ.
+    #[cfg_attr(optimized, inline(always))]
+    pub(crate) fn differ(&self) -> bool {
+        matches!(self, Self::Each(_))
+    }
+
+    /// The numbers of lane group `index`.
+    #[cfg_attr(optimized, inline(always))]
+    pub(crate) fn lanes(&self, isa: I, index: usize) -> [I::V; K] {
+        match self {
+            Self::One(lanes) => *lanes,
+            Self::Each(groups) => {
+                let mut lanes = [isa.splat(0.0); K];
+                let mut k = 0;
+                while k < K {
+                    lanes[k] = isa.load(&groups[k][index]);
+                    k += 1;
+                }
+                lanes
+            }
+        }
     }
 }

@@ -76,8 +76,9 @@ pub(super) fn locate<I: Isa>(isa: I, ray: &RayLanes<I>, emitter: &EmitterLanes<I
         a: End { t: I::V::select(clip_a, t_n, ray.t_min), t_low: I::V::only(clip_a, t_n_low) },
         b: End { t: I::V::select(clip_b, t_n, t_max), t_low: I::V::only(clip_b, t_n_low) },
         length,
+        valid,
     };
-    let cosine = Cosine { m_a: m_a.max(c(0.0)), m_b: m_b.max(c(0.0)), beta, has_normal };
+    let cosine = Cosine { m_least: m_a.min(m_b).max(c(0.0)), beta, has_normal };
     let t_h_high = I::V::narrow(t_h);
     let foot = Foot {
         h: h_squared.sqrt(),
@@ -88,7 +89,6 @@ pub(super) fn locate<I: Isa>(isa: I, ray: &RayLanes<I>, emitter: &EmitterLanes<I
         a: I::V::select(clip_a, tn, ta),
         b: I::V::select(clip_b, tn, tb),
         alpha_h: I::V::narrow(alpha_h),
-        valid,
     };
     (lit, cosine, foot)
 }

@@ -10,9 +10,6 @@ use crate::simd::{Isa, Lanes, Machine, Room, none};
 
 /// What is asked at a distance.
 pub(crate) trait Question {
-    /// The answer beyond the end of the support; before its start it is 0.
-    const BEYOND: f32;
-
     fn answer<I: Isa, D: Density<I>>(isa: I, density: &D, geometry: Geometry<'_, I>, point: &Point<I>) -> I::V;
 }
 
@@ -20,11 +17,11 @@ pub(crate) trait Question {
 pub(crate) struct Pdf;
 
 impl Question for Pdf {
-    const BEYOND: f32 = 0.0;
-
     #[cfg_attr(optimized, inline(always))]
     fn answer<I: Isa, D: Density<I>>(isa: I, density: &D, geometry: Geometry<'_, I>, point: &Point<I>) -> I::V {
-        density.pdf(isa, geometry, point).over_t
+        let [low, high] = density.support(geometry);
+        let inside = low.le(point.t) & point.t.le(high);
+        I::V::only(inside, density.pdf(isa, geometry, point).over_t)
     }
 }
 
@@ -32,11 +29,11 @@ impl Question for Pdf {
 pub(crate) struct Cdf;
 
 impl Question for Cdf {
-    const BEYOND: f32 = 1.0;
-
     #[cfg_attr(optimized, inline(always))]
     fn answer<I: Isa, D: Density<I>>(isa: I, density: &D, geometry: Geometry<'_, I>, point: &Point<I>) -> I::V {
-        density.cdf(isa, geometry, point).max(isa.splat(0.0)).min(isa.splat(1.0))
+        let [before, beyond] = density.outside(isa, geometry, point.t);
+        let cdf = density.cdf(isa, geometry, point).max(isa.splat(0.0)).min(isa.splat(1.0));
+        I::V::only(!before, I::V::select(beyond, isa.splat(1.0), cdf))
     }
 }
 
@@ -52,7 +49,7 @@ impl<Q: Question> OfDensity for Q {
     fn groups<I: Isa, D: Kind>(isa: I, precision: Precision, inputs: &Inputs<'_>, mut out: &mut [f32]) -> Counts {
         let mut tally = Tally::new(isa, inputs);
         let (mut set_ups, mut pad) = (SetUps::<I, D>::new(), None);
-        let wanted = Wanted { precision, cosine: D::On::<I>::COSINE, records: SetUps::<I, D>::SIZE };
+        let wanted = Wanted { precision, extent: D::On::<I>::EXTENT, records: SetUps::<I, D>::SIZE };
         for_each_block(isa, inputs, wanted, |block| {
             let set_ups = set_up::<I, D, D::On<I>>(isa, block, &mut set_ups);
             for_each_run(block, |run| {
@@ -84,11 +81,9 @@ fn answers<I: Isa, D: Kind, Q: Question>(
                 let Turn { record, .. } = *turn;
                 let (SetUp { density, valid, lit }, geometry) = (&set_ups[record], geometries.get(record));
                 let t = isa.load(t);
-                let [low, high] = density.support(geometry);
                 let valid = *valid & t.eq(t);
                 let sampled = valid & *lit;
                 let answer = Q::answer(isa, density, geometry, &geometry.point_at_distance(isa, t));
-                let answer = I::V::only(low.le(t), I::V::select(t.le(high), answer, isa.splat(Q::BEYOND)));
                 isa.store(I::V::only(sampled, answer), out);
                 tally.add(valid, sampled, none(isa));
             }

@@ -2,14 +2,14 @@
 //!
 //! A pass reads the records of the one before and writes its own; they stay in the nearest caches. The passes are
 //!
-//! 1. geometry, the same for all densities: the lit interval, then the foot of the perpendicular, and hard lanes in f64;
+//! 1. geometry, as much of it as is asked for: the lit interval, then the foot of the perpendicular, and hard lanes in f64;
 //! 2. set-up, inversion and output of a density, in one pass for one variate per ray, else in one each;
 //! 3. weights, the same for all densities.
 
 use crate::Precision;
 use crate::batch::{Counts, Gathered, Inputs, MOST_RAYS, Rows, Run, Turn};
 use crate::density::{Density, Kind, SetUp};
-use crate::geometry::{Clipped, Cosine, Foot, Geometry, clip, find_foot, in_f64, pick, unknown};
+use crate::geometry::{Cosine, Extent, Foot, Geometry, Lit, clip, find_foot, in_f64, pick};
 use crate::simd::{GROUPS, Isa, Lanes, MOST_LANES, Records, Room, none};
 use core::ops::Range;
 
@@ -32,7 +32,7 @@ pub(super) struct Block<'b, I: Isa> {
     pub(super) groups: Range<usize>,
     /// Their media.
     pub(super) media: Rows<'b, 3>,
-    clipped: &'b [Clipped<I>],
+    lits: &'b [Lit<I>],
     cosines: &'b [Cosine<I>],
     feet: &'b [Foot<I>],
 }
@@ -48,13 +48,13 @@ impl<I: Isa> Block<'_, I> {
     pub(super) fn geometries(&self) -> Geometries<'_, I> {
         // Equal lengths remove bounds checks.
         let count = self.groups.len();
-        Geometries { clipped: &self.clipped[..count], cosines: &self.cosines[..count], feet: &self.feet[..count] }
+        Geometries { lits: &self.lits[..count], cosines: &self.cosines[..count], feet: &self.feet[..count] }
     }
 }
 
 /// Those of the lane groups of a block.
 pub(super) struct Geometries<'b, I: Isa> {
-    clipped: &'b [Clipped<I>],
+    lits: &'b [Lit<I>],
     cosines: &'b [Cosine<I>],
     feet: &'b [Foot<I>],
 }
@@ -63,7 +63,7 @@ impl<I: Isa> Geometries<'_, I> {
     /// That of a record.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn get(&self, record: usize) -> Geometry<'_, I> {
-        Geometry { lit: &self.clipped[record].lit, cosine: &self.cosines[record], foot: &self.feet[record] }
+        Geometry { lit: &self.lits[record], cosine: &self.cosines[record], foot: &self.feet[record] }
     }
 }
 
@@ -71,8 +71,7 @@ impl<I: Isa> Geometries<'_, I> {
 #[derive(Clone, Copy)]
 pub(super) struct Wanted {
     pub(super) precision: Precision,
-    /// Whether it asks for the emitter's cosine.
-    pub(super) cosine: bool,
+    pub(super) extent: Extent,
     /// How many records of its density fit.
     pub(super) records: usize,
 }
@@ -86,34 +85,36 @@ pub(super) fn for_each_block<I: Isa>(
 ) {
     let (at_once, count) = ((MOST_RAYS / I::V::N).clamp(1, GROUPS), inputs.len() / I::V::N);
     let each = inputs.emitters.0.differs();
-    let locate = match wanted.precision {
-        // What the rounding of a product leaves is known by a fused addition alone.
-        _ if !I::FUSED => in_double,
-        Precision::Fast => match (wanted.cosine, each) {
-            (false, false) => in_single::<I, false, false, false>,
-            (false, true) => in_single::<I, false, false, true>,
-            (true, false) => in_single::<I, false, true, false>,
-            (true, true) => in_single::<I, false, true, true>,
-        },
-        Precision::Exact => match (wanted.cosine, each) {
-            (false, false) => in_single::<I, true, false, false>,
-            (false, true) => in_single::<I, true, false, true>,
-            (true, false) => in_single::<I, true, true, false>,
-            (true, true) => in_single::<I, true, true, true>,
-        },
-    };
-    let mut places = Places { clipped: Records::new(), cosines: Records::new(), feet: Records::new() };
-    let mut no_cosines: Records<Cosine<I>> = Records::new();
-    let no_cosines: &[Cosine<I>] = if wanted.cosine {
-        &[]
-    } else {
-        isa.vectorize::<Foot<I>, _>(
-            #[cfg_attr(optimized, inline(always))]
-            || {
+    let mut places = Places::new();
+    isa.vectorize::<Foot<I>, _>(
+        #[cfg_attr(optimized, inline(always))]
+        || {
+            // Those that are not asked for.
+            if wanted.extent == Extent::Lit {
+                let none = Foot::none(isa);
+                places.feet.fill(at_once.min(count), |_| none);
+            }
+            if wanted.extent != Extent::Cosine {
                 let none = Cosine::none(isa);
-                no_cosines.fill(at_once.min(count), |_| none)
-            },
-        )
+                places.cosines.fill(at_once.min(count), |_| none);
+            }
+        },
+    );
+    let locate = match (wanted.extent, wanted.precision) {
+        // What the rounding of a product leaves is known by a fused addition alone.
+        (Extent::Lit, _) if !I::FUSED => in_double::<I, false, false>,
+        (Extent::Foot, _) if !I::FUSED => in_double::<I, true, false>,
+        (Extent::Cosine, _) if !I::FUSED => in_double::<I, true, true>,
+        (Extent::Lit, _) if each => in_single::<I, true, false, false, true>,
+        (Extent::Lit, _) => in_single::<I, true, false, false, false>,
+        (Extent::Foot, Precision::Fast) if each => in_single::<I, false, true, false, true>,
+        (Extent::Foot, Precision::Fast) => in_single::<I, false, true, false, false>,
+        (Extent::Foot, Precision::Exact) if each => in_single::<I, true, true, false, true>,
+        (Extent::Foot, Precision::Exact) => in_single::<I, true, true, false, false>,
+        (Extent::Cosine, Precision::Fast) if each => in_single::<I, false, true, true, true>,
+        (Extent::Cosine, Precision::Fast) => in_single::<I, false, true, true, false>,
+        (Extent::Cosine, Precision::Exact) if each => in_single::<I, true, true, true, true>,
+        (Extent::Cosine, Precision::Exact) => in_single::<I, true, true, true, false>,
     };
     let (mut emitters, mut media) = (Gathered::new(), Gathered::new());
     for start in (0..count).step_by(at_once) {
@@ -121,15 +122,15 @@ pub(super) fn for_each_block<I: Isa>(
         let rays = groups.start * I::V::N..groups.end * I::V::N;
         let emitters = inputs.emitters.0.rows(rays.clone(), &mut emitters);
         let media = inputs.media.0.rows(rays, &mut media);
-        let (clipped, cosines, feet) = locate(isa, inputs, emitters, groups.clone(), &mut places);
-        let cosines = if wanted.cosine { cosines } else { no_cosines };
+        locate(isa, inputs, emitters, groups.clone(), &mut places);
+        let (lits, cosines, feet) = (places.lits.written(), places.cosines.written(), places.feet.written());
         for part in (0..groups.len()).step_by(wanted.records) {
             let part = part..groups.len().min(part + wanted.records);
             visit(&Block {
                 inputs,
                 groups: groups.start + part.start..groups.start + part.end,
                 media: media.part(part.start * I::V::N..part.end * I::V::N),
-                clipped: &clipped[part.clone()],
+                lits: &lits[part.clone()],
                 cosines: &cosines[part.clone()],
                 feet: &feet[part],
             });
@@ -139,9 +140,18 @@ pub(super) fn for_each_block<I: Isa>(
 
 /// Place for the records of a block's geometry.
 struct Places<I: Isa> {
-    clipped: Records<Clipped<I>>,
+    lits: Records<Lit<I>>,
+    /// `|d| - 1`.
+    excesses: Records<I::V>,
     cosines: Records<Cosine<I>>,
     feet: Records<Foot<I>>,
+}
+
+impl<I: Isa> Places<I> {
+    #[cfg_attr(optimized, inline(always))]
+    fn new() -> Self {
+        Self { lits: Records::new(), excesses: Records::new(), cosines: Records::new(), feet: Records::new() }
+    }
 }
 
 /// The turns of a block, at most as many at a time as there is place for records.
@@ -209,99 +219,129 @@ impl<I: Isa> Tally<I> {
     }
 }
 
-/// The records of some groups; no cosines where none are wanted.
-type Located<'r, I> = (&'r [Clipped<I>], &'r [Cosine<I>], &'r [Foot<I>]);
+/// Rays, variates, `t` and `pdf` are prefetched so many lane groups before they are read or written.
+pub(super) const AHEAD: usize = 2 * GROUPS;
 
-/// Those in f32, hard lanes again in f64.
-fn in_single<'r, I: Isa, const EXACT: bool, const COSINE: bool, const EACH: bool>(
+/// The geometry of some groups in f32, that of hard lanes again in f64.
+fn in_single<I: Isa, const EXACT: bool, const FOOT: bool, const COSINE: bool, const EACH: bool>(
     isa: I,
     inputs: &Inputs<'_>,
     emitters: Rows<'_, 6>,
     groups: Range<usize>,
-    places: &'r mut Places<I>,
-) -> Located<'r, I> {
-    let start = groups.start;
-    let (clipped, cosines, feet, hard) = isa.vectorize::<Foot<I>, _>(
+    places: &mut Places<I>,
+) {
+    // Which lanes are easy in every group, and which in any.
+    let [mut every, any] = isa.vectorize::<Foot<I>, _>(
         #[cfg_attr(optimized, inline(always))]
         || {
             let rays = inputs.ray_groups::<I>();
+            let emitters = emitters.groups(isa);
             let mut emitter = emitters.emitters(isa, 0);
-            let (mut clipped, mut cosines) = (places.clipped.start(), places.cosines.start());
-            let mut feet = places.feet.start();
-            let mut valid = !none(isa);
+            let (mut lits, mut excesses) = (places.lits.start(), places.excesses.start());
+            let mut cosines = places.cosines.start();
+            let (mut every, mut any) = (!none(isa), none(isa));
             for group in groups.clone() {
                 rays.prefetch(isa, group, AHEAD);
                 if EACH {
-                    emitter = emitters.emitters(isa, group - start);
+                    emitter = emitters.emitters(isa, group - groups.start);
                 }
                 let ray = rays.lanes(isa, group);
-                let (of_clipped, of_cosine) = clip::<I, EXACT, COSINE>(isa, &ray, &emitter);
-                clipped.push(of_clipped);
+                let (lit, excess, cosine) = clip::<I, EXACT, FOOT, COSINE>(isa, &ray, &emitter);
+                (every, any) = (every & lit.valid, any | lit.valid);
+                lits.push(lit);
                 if COSINE {
-                    cosines.push(of_cosine);
+                    cosines.push(cosine);
                 }
-                if !EXACT {
-                    let foot = find_foot::<I, EXACT, COSINE>(isa, &ray, &emitter, &of_clipped, of_cosine.beta);
-                    valid = valid & foot.valid;
-                    feet.push(foot);
+                if FOOT {
+                    excesses.push(excess);
                 }
             }
-            let (clipped, cosines) = (clipped.done(), cosines.done());
-            // Apart: the two together do not fit the registers.
-            if EXACT {
-                for (index, group) in groups.enumerate() {
-                    if EACH {
-                        emitter = emitters.emitters(isa, index);
-                    }
-                    let (ray, of_clipped) = (rays.lanes(isa, group), &clipped[index]);
-                    let beta = if COSINE { cosines[index].beta } else { isa.splat(0.0) };
-                    let foot = find_foot::<I, EXACT, COSINE>(isa, &ray, &emitter, of_clipped, beta);
-                    valid = valid & foot.valid;
-                    feet.push(foot);
-                }
+            lits.done();
+            excesses.done();
+            if COSINE {
+                cosines.done();
             }
-            (clipped, cosines, feet.done(), I::V::bits(!valid) != 0)
+            [I::V::bits(!every) == 0, I::V::bits(any) != 0]
         },
     );
-    if hard {
-        rescue::<I, COSINE>(isa, inputs, emitters, start, clipped, cosines, feet);
+    if !any {
+        return in_double::<I, FOOT, COSINE>(isa, inputs, emitters, groups, places);
     }
-    (clipped, cosines, feet)
+    // Apart: the two together do not fit the registers.
+    if FOOT {
+        every = find_feet::<I, EXACT, COSINE, EACH>(isa, inputs, emitters, groups.start, places);
+    }
+    if !every {
+        rescue::<I, FOOT, COSINE>(isa, inputs, emitters, groups.start, places);
+    }
 }
 
-/// Rays, variates, `t` and `pdf` are prefetched so many lane groups before they are read or written.
-pub(super) const AHEAD: usize = 2 * GROUPS;
-
-/// Hard lanes in f64: those that are not valid in f32.
-#[cold]
-fn rescue<I: Isa, const COSINE: bool>(
+/// The feet of the perpendiculars after the lit intervals; whether all lanes are easy.
+fn find_feet<I: Isa, const EXACT: bool, const COSINE: bool, const EACH: bool>(
     isa: I,
     inputs: &Inputs<'_>,
     emitters: Rows<'_, 6>,
     start: usize,
-    clipped: &mut [Clipped<I>],
-    cosines: &mut [Cosine<I>],
-    feet: &mut [Foot<I>],
+    places: &mut Places<I>,
+) -> bool {
+    isa.vectorize::<Foot<I>, _>(
+        #[cfg_attr(optimized, inline(always))]
+        || {
+            let rays = inputs.ray_groups::<I>();
+            let emitters = emitters.groups(isa);
+            let mut emitter = emitters.emitters(isa, 0);
+            let lits = places.lits.written();
+            let (excesses, cosines) =
+                (&places.excesses.written()[..lits.len()], &places.cosines.written()[..lits.len()]);
+            let mut feet = places.feet.start();
+            let mut every = !none(isa);
+            for (record, lit) in lits.iter_mut().enumerate() {
+                if EACH {
+                    emitter = emitters.emitters(isa, record);
+                }
+                let (ray, excess, cosine) = (rays.lanes(isa, start + record), excesses[record], &cosines[record]);
+                let foot;
+                (foot, lit.valid) = find_foot::<I, EXACT, COSINE>(isa, &ray, &emitter, lit, excess, cosine);
+                every = every & lit.valid;
+                feet.push(foot);
+            }
+            feet.done();
+            I::V::bits(!every) == 0
+        },
+    )
+}
+
+/// Hard lanes in f64: those that are not valid in f32.
+#[cold]
+fn rescue<I: Isa, const FOOT: bool, const COSINE: bool>(
+    isa: I,
+    inputs: &Inputs<'_>,
+    emitters: Rows<'_, 6>,
+    start: usize,
+    places: &mut Places<I>,
 ) {
     isa.vectorize::<Foot<I>, _>(
         #[cfg_attr(optimized, inline(always))]
         || {
             let rays = inputs.ray_groups::<I>();
-            let no_cosine = Cosine::none(isa);
+            let emitters = emitters.groups(isa);
             let mut emitter = emitters.emitters(isa, 0);
-            for (record, (Clipped { lit, .. }, foot)) in clipped.iter_mut().zip(feet).enumerate() {
-                let hard = !foot.valid;
+            let (lits, cosines, feet) = (places.lits.written(), places.cosines.written(), places.feet.written());
+            for (record, ((lit, cosine), foot)) in lits.iter_mut().zip(cosines).zip(feet).enumerate() {
+                let hard = !lit.valid;
                 if I::V::bits(hard) != 0 {
                     let group = start + record;
-                    if emitters.differs() {
+                    if emitters.differ() {
                         emitter = emitters.emitters(isa, record);
                     }
                     let exact = in_f64(isa, &rays.lanes(isa, group), &emitter);
-                    let cosine = if COSINE { &cosines[record] } else { &no_cosine };
                     let (of_lit, of_cosine, of_foot) = pick(hard, &exact, Geometry { lit, cosine, foot });
-                    (*lit, *foot) = (of_lit, of_foot);
+                    *lit = of_lit;
                     if COSINE {
-                        cosines[record] = of_cosine;
+                        *cosine = of_cosine;
+                    }
+                    if FOOT {
+                        *foot = of_foot;
                     }
                 }
             }
@@ -309,29 +349,44 @@ fn rescue<I: Isa, const COSINE: bool>(
     );
 }
 
-/// All lanes in f64, as if all of them were hard.
-fn in_double<'r, I: Isa>(
+/// The geometry of some groups in f64.
+fn in_double<I: Isa, const FOOT: bool, const COSINE: bool>(
     isa: I,
     inputs: &Inputs<'_>,
     emitters: Rows<'_, 6>,
     groups: Range<usize>,
-    places: &'r mut Places<I>,
-) -> Located<'r, I> {
-    let count = groups.len();
-    let (clipped, cosines, feet) = isa.vectorize::<Foot<I>, _>(
+    places: &mut Places<I>,
+) {
+    isa.vectorize::<Foot<I>, _>(
         #[cfg_attr(optimized, inline(always))]
         || {
-            let (clip, foot) = unknown(isa);
-            let cosine = Cosine::none(isa);
-            (
-                places.clipped.fill(count, |_| clip),
-                places.cosines.fill(count, |_| cosine),
-                places.feet.fill(count, |_| foot),
-            )
+            let rays = inputs.ray_groups::<I>();
+            let emitters = emitters.groups(isa);
+            let (mut emitter, start) = (emitters.emitters(isa, 0), groups.start);
+            let (mut lits, mut cosines, mut feet) = (places.lits.start(), places.cosines.start(), places.feet.start());
+            for group in groups {
+                rays.prefetch(isa, group, AHEAD);
+                if emitters.differ() {
+                    emitter = emitters.emitters(isa, group - start);
+                }
+                let (lit, cosine, foot) = in_f64(isa, &rays.lanes(isa, group), &emitter);
+                lits.push(lit);
+                if COSINE {
+                    cosines.push(cosine);
+                }
+                if FOOT {
+                    feet.push(foot);
+                }
+            }
+            lits.done();
+            if COSINE {
+                cosines.done();
+            }
+            if FOOT {
+                feet.done();
+            }
         },
     );
-    rescue::<I, true>(isa, inputs, emitters, groups.start, clipped, cosines, feet);
-    (clipped, cosines, feet)
 }
 
 /// Place for the set-ups of a block.
@@ -346,15 +401,15 @@ pub(super) fn set_up<'r, I: Isa, Home, D: Density<I>>(
     isa.vectorize::<Home, _>(
         #[cfg_attr(optimized, inline(always))]
         || {
-            let rays = block.inputs.ray_groups::<I>();
-            let mut medium = block.media.media(isa, 0);
+            let (rays, media) = (block.inputs.ray_groups::<I>(), block.media.groups(isa));
+            let mut medium = media.media(isa, 0);
             let geometries = block.geometries();
             records.fill(
                 block.groups.len(),
                 #[cfg_attr(optimized, inline(always))]
                 |record| {
                     let group = block.groups.start + record;
-                    block.media.renew(isa, record, &mut medium);
+                    media.renew(isa, record, &mut medium);
                     let geometry = geometries.get(record);
                     SetUp::new(isa, &rays.lanes(isa, group), geometry, &medium)
                 },

@@ -4,6 +4,7 @@ use super::blocks::{Block, Tally, Wanted, for_each_block, for_each_run};
 use super::{Method, Task};
 use crate::Precision;
 use crate::batch::{Column, Counts, Inputs, Outputs, Turn};
+use crate::geometry::Extent;
 use crate::integrand::{MediumLanes, integrand_r2};
 use crate::simd::{GROUPS, Isa, Kernel, Lanes, Machine, none};
 
@@ -30,7 +31,7 @@ impl Kernel for OnGroups<'_> {
     fn run<I: Isa>(self, isa: I) -> Counts {
         let Self { precision, inputs, mut out } = self;
         let (mut tally, mut pad) = (Tally::new(isa, inputs), None);
-        for_each_block(isa, inputs, Wanted { precision, cosine: true, records: GROUPS }, |block| {
+        for_each_block(isa, inputs, Wanted { precision, extent: Extent::Cosine, records: GROUPS }, |block| {
             for_each_run(block, |run| {
                 let t = run.values(inputs.given, &mut pad);
                 Column::of_run(&mut out, run, |out| integrands(isa, block, run.turns, t, out, &mut tally));
@@ -45,15 +46,15 @@ fn integrands<I: Isa>(isa: I, block: &Block<'_, I>, turns: &[Turn], t: &[f32], o
     isa.vectorize::<MediumLanes<I>, _>(
         #[cfg_attr(optimized, inline(always))]
         || {
-            let rays = block.inputs.ray_groups::<I>();
-            let mut medium = block.media.media(isa, 0);
+            let (rays, media) = (block.inputs.ray_groups::<I>(), block.media.groups(isa));
+            let mut medium = media.media(isa, 0);
             let geometries = block.geometries();
             for ((turn, t), out) in turns.iter().zip(I::groups(t)).zip(I::groups_mut(out)) {
                 let group = block.groups.start + turn.record;
-                block.media.renew(isa, turn.record, &mut medium);
+                media.renew(isa, turn.record, &mut medium);
                 let (ray, geometry) = (rays.lanes(isa, group), geometries.get(turn.record));
                 let t = isa.load(t);
-                let (valid, faced) = (geometry.foot.valid & medium.valid & t.eq(t), geometry.faced(isa));
+                let (valid, faced) = (geometry.lit.valid & medium.valid & t.eq(t), geometry.faced(isa));
                 let inside = valid & faced & ray.t_min.le(t) & t.le(ray.end(isa));
                 let point = geometry.point_at_distance(isa, t);
                 let f = integrand_r2(isa, &ray, geometry, &medium, &point) / (point.r * point.r);

@@ -4,6 +4,7 @@ use super::blocks::{Tally, Wanted, for_each_block, set_up};
 use super::{Method, Task};
 use crate::batch::{Column, Counts, Inputs};
 use crate::density::{Density, SetUp};
+use crate::geometry::Extent;
 use crate::simd::{Isa, Kernel, Lanes, Machine, Room, none};
 use crate::strategy::product::{Product, knots};
 use crate::{Precision, Strategy};
@@ -49,18 +50,18 @@ impl<D, const K: usize> Kernel for OnGroups<'_, D, K> {
         let mut tally = Tally::new(isa, inputs);
         let mut set_ups = <Product<I, K> as Density<I>>::SetUps::new();
         let records = <Product<I, K> as Density<I>>::SetUps::SIZE;
-        for_each_block(isa, inputs, Wanted { precision, cosine: true, records }, |block| {
+        for_each_block(isa, inputs, Wanted { precision, extent: Extent::Cosine, records }, |block| {
             let set_ups = set_up::<I, D, Product<I, K>>(isa, block, &mut set_ups);
             isa.vectorize::<D, _>(
                 #[cfg_attr(optimized, inline(always))]
                 || {
-                    let rays = inputs.ray_groups::<I>();
-                    let mut medium = block.media.media(isa, 0);
+                    let (rays, media) = (inputs.ray_groups::<I>(), block.media.groups(isa));
+                    let mut medium = media.media(isa, 0);
                     let geometries = block.geometries();
                     let out = &mut I::groups_mut(out)[block.groups.clone()];
                     for (record, (set_up, out)) in set_ups.iter().zip(out).enumerate() {
                         let (group, geometry) = (block.groups.start + record, geometries.get(record));
-                        block.media.renew(isa, record, &mut medium);
+                        media.renew(isa, record, &mut medium);
                         let SetUp { density, valid, lit } = set_up;
                         let radiance = density.radiance(isa, &rays.lanes(isa, group), geometry, &medium);
                         let value = I::V::only(*valid & *lit, radiance.min(isa.splat(f32::MAX)));

@@ -3,9 +3,9 @@
 use super::blocks::{AHEAD, Block, Geometries, SetUps, Tally, Wanted, for_each_block, for_each_run, set_up};
 use super::{Method, OfDensity, Out, Task, by_strategy};
 use crate::Precision;
-use crate::batch::{Counts, Inputs, OfSamples, Outputs, RayGroups, Rows, Samples, Turn};
-use crate::density::{Density, Drawn, Kind, SetUp};
-use crate::geometry::Geometry;
+use crate::batch::{Counts, Inputs, OfSamples, Outputs, RayGroups, RowGroups, Samples, Turn};
+use crate::density::{Density, Kind, SetUp};
+use crate::geometry::{Extent, Geometry, Point};
 use crate::integrand::{MediumLanes, integrand_r2};
 use crate::simd::{GROUPS, Isa, Lanes, Machine, Records, Room};
 
@@ -42,7 +42,7 @@ impl<const WITH_WEIGHT_OR_R: bool> OfDensity for Drawing<WITH_WEIGHT_OR_R> {
         let mut pad = None;
         let wanted = Wanted {
             precision,
-            cosine: D::On::<I>::COSINE || WITH_WEIGHT_OR_R,
+            extent: if WITH_WEIGHT_OR_R { Extent::Cosine } else { D::On::<I>::EXTENT },
             records: if inputs.per_ray == 1 { GROUPS } else { SetUps::<I, D>::SIZE },
         };
         for_each_block(isa, inputs, wanted, |block| {
@@ -123,13 +123,14 @@ impl<I: Isa> Once<'_, I> {
     #[cfg_attr(optimized, inline(always))]
     fn stations(&self, isa: I) -> Stations<'_, I> {
         let Block { inputs, groups, .. } = self.block;
+        let media = self.block.media.groups(isa);
         Stations {
             first: groups.start,
             rays: inputs.ray_groups(),
             geometries: self.block.geometries(),
             u: &I::groups(self.u)[..groups.len()],
-            media: self.block.media,
-            medium: self.block.media.media(isa, 0),
+            medium: media.media(isa, 0),
+            media,
         }
     }
 }
@@ -140,7 +141,7 @@ struct Stations<'p, I: Isa> {
     rays: RayGroups<'p, I>,
     geometries: Geometries<'p, I>,
     u: &'p [I::Group],
-    media: Rows<'p, 3>,
+    media: RowGroups<'p, I, 3>,
     medium: MediumLanes<I>,
 }
 
@@ -213,7 +214,9 @@ pub(super) fn invert<'r, I: Isa, D: Kind>(
 /// A point that was drawn, and for which lanes.
 #[derive(Clone, Copy)]
 struct Sampled<I: Isa> {
-    drawn: Drawn<I>,
+    point: Point<I>,
+    /// The pdf times `r^2` \[m\].
+    times_r2: I::V,
     sampled: I::Mask,
 }
 
@@ -294,7 +297,7 @@ fn draw_one<I: Isa, D: Kind>(
     isa.store(I::V::only(sampled, drawn.point.t), t);
     isa.store(I::V::only(sampled, drawn.pdf.over_t), pdf);
     tally.add(*valid, sampled, drawn.bisected);
-    Sampled { drawn, sampled }
+    Sampled { point: drawn.point, times_r2: drawn.pdf.times_r2, sampled }
 }
 
 /// What the points weigh, and how far they are from the emitter.
@@ -303,22 +306,23 @@ fn weigh<I: Isa>(isa: I, block: &Block<'_, I>, turns: &[Turn], points: &[Sampled
         #[cfg_attr(optimized, inline(always))]
         || {
             if let Some(r) = &mut out.r {
-                for (Sampled { drawn, sampled }, r) in points.iter().zip(I::groups_mut(r)) {
-                    isa.store(I::V::only(*sampled, drawn.point.r), r);
+                for (Sampled { point, sampled, .. }, r) in points.iter().zip(I::groups_mut(r)) {
+                    isa.store(I::V::only(*sampled, point.r), r);
                 }
             }
             let Some(weight) = &mut out.weight else { return };
-            let rays = block.inputs.ray_groups::<I>();
-            let mut medium = block.media.media(isa, 0);
+            let (rays, media) = (block.inputs.ray_groups::<I>(), block.media.groups(isa));
+            let mut medium = media.media(isa, 0);
             let geometries = block.geometries();
-            for ((turn, Sampled { drawn, sampled }), weight) in turns.iter().zip(points).zip(I::groups_mut(weight)) {
+            for ((turn, Sampled { point, times_r2, sampled }), weight) in
+                turns.iter().zip(points).zip(I::groups_mut(weight))
+            {
                 let group = block.groups.start + turn.record;
-                block.media.renew(isa, turn.record, &mut medium);
+                media.renew(isa, turn.record, &mut medium);
                 let (ray, geometry) = (rays.lanes(isa, group), geometries.get(turn.record));
-                let times_r2 = drawn.pdf.times_r2;
-                let f = integrand_r2(isa, &ray, geometry, &medium, &drawn.point);
-                let value = (f / times_r2).min(isa.splat(f32::MAX));
-                isa.store(I::V::only(*sampled & isa.splat(0.0).lt(times_r2), value), weight);
+                let f = integrand_r2(isa, &ray, geometry, &medium, point);
+                let value = (f / *times_r2).min(isa.splat(f32::MAX));
+                isa.store(I::V::only(*sampled & isa.splat(0.0).lt(*times_r2), value), weight);
             }
         },
     );

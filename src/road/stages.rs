@@ -59,7 +59,7 @@ impl Task for UpTo {
 impl OfDensity for UpTo {
     fn groups<I: Isa, D: Kind>(isa: I, precision: Precision, inputs: &Inputs<'_>, stage: Stage) -> Counts {
         let (mut set_ups, mut places, mut pad) = (SetUps::<I, D>::new(), Records::new(), None);
-        let wanted = Wanted { precision, cosine: D::On::<I>::COSINE, records: SetUps::<I, D>::SIZE };
+        let wanted = Wanted { precision, extent: D::On::<I>::EXTENT, records: SetUps::<I, D>::SIZE };
         for_each_block(isa, inputs, wanted, |block| {
             black_box(block.geometries().get(0));
             if stage != Stage::Geometry {

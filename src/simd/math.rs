@@ -106,7 +106,7 @@ pub(crate) fn exp<I: Isa>(isa: I, x: I::Double) -> I::V {
     let n = round(isa, I::V::narrow(x * isa.splat_double(core::f64::consts::LOG2_E)));
     let f = I::V::narrow(n.widen().mul_add(isa.splat_double(-core::f64::consts::LN_2), x));
     let p = exp_m1_reduced(isa, f) + c(1.0);
-    I::V::select(c(-126.0).le(n), p * n.max(c(-126.0)).pow2(), c(0.0))
+    I::V::only(c(-126.0).le(n), p * n.pow2())
 }
 
 /// `1/x` in f64 by a Newton step, for `x` in `[2^-100, 2^100]`. Max error 1e-14, relative.
@@ -131,7 +131,7 @@ pub(crate) fn one_minus_exp<I: Isa>(isa: I, x: I::V) -> (I::V, I::V) {
     // Cody and Waite: the products of n with the first part of ln 2 are exact.
     let f = n.mul_add(c(2.121_944_4e-4), n.mul_add(c(-0.693_359_4), -x));
     let q = exp_m1_reduced(isa, f);
-    let s = I::V::select(c(-126.0).le(n), n.max(c(-126.0)).pow2(), c(0.0));
+    let s = I::V::only(c(-126.0).le(n), n.pow2());
     ((c(1.0) - s) - s * q, s.mul_add(q, s))
 }
 

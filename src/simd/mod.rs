@@ -60,7 +60,7 @@ pub(crate) trait Lanes: Number + Div<Output = Self> {
     fn only(m: Self::Mask, x: Self) -> Self;
     /// Bit `i` is the truth of lane `i`.
     fn bits(m: Self::Mask) -> u32;
-    /// `2^self` for integral values in `[-126, 127]`.
+    /// `2^self` for integral values in `[-126, 127]`; anything for others in `[-2^22, 2^22]`.
     fn pow2(self) -> Self;
     /// `(m, e)` with `self = m 2^e` and `m` in `[sqrt(1/2), sqrt(2))`, for positive normal values.
     fn split(self) -> (Self, Self);

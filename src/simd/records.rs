@@ -8,7 +8,11 @@ pub(crate) const GROUPS: usize = if cfg!(optimized) { 16 } else { 2 };
 
 /// Place for the records of a block of at most `N` groups. It is not written to before a pass writes: zeros would cost a
 /// small batch more than its samples do.
-pub(crate) struct Records<T, const N: usize = GROUPS>([MaybeUninit<T>; N]);
+pub(crate) struct Records<T, const N: usize = GROUPS> {
+    places: [MaybeUninit<T>; N],
+    /// How many of them are written.
+    count: usize,
+}
 
 /// Place for records, of whatever size.
 pub(crate) trait Room<T> {
@@ -26,7 +30,7 @@ impl<T: Copy, const N: usize> Room<T> for Records<T, N> {
 
     #[cfg_attr(optimized, inline(always))]
     fn new() -> Self {
-        Self([const { MaybeUninit::uninit() }; N])
+        Self { places: [const { MaybeUninit::uninit() }; N], count: 0 }
     }
 
     #[cfg_attr(optimized, inline(always))]
@@ -35,7 +39,8 @@ impl<T: Copy, const N: usize> Room<T> for Records<T, N> {
         for index in 0..count {
             records.push(make(index));
         }
-        records.done()
+        records.done();
+        self.written()
     }
 }
 
@@ -43,28 +48,35 @@ impl<T: Copy, const N: usize> Records<T, N> {
     /// No records, to which some are added.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn start(&mut self) -> Started<'_, T> {
-        Started { records: &mut self.0, count: 0 }
+        Started { places: &mut self.places, count: 0, written: &mut self.count }
+    }
+
+    /// Those that were written last.
+    #[cfg_attr(optimized, inline(always))]
+    pub(crate) fn written(&mut self) -> &mut [T] {
+        let records = &mut self.places[..self.count];
+        // SAFETY: `Started` has written each of them, and `MaybeUninit<T>` lies in memory as `T` does.
+        unsafe { &mut *(core::ptr::from_mut(records) as *mut [T]) }
     }
 }
 
 /// Records of which the first ones are written.
 pub(crate) struct Started<'r, T> {
-    records: &'r mut [MaybeUninit<T>],
+    places: &'r mut [MaybeUninit<T>],
     count: usize,
+    written: &'r mut usize,
 }
 
-impl<'r, T: Copy> Started<'r, T> {
+impl<T: Copy> Started<'_, T> {
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn push(&mut self, record: T) {
-        self.records[self.count].write(record);
+        self.places[self.count].write(record);
         self.count += 1;
     }
 
-    /// All that were added.
+    /// No more are added.
     #[cfg_attr(optimized, inline(always))]
-    pub(crate) fn done(self) -> &'r mut [T] {
-        let records = &mut self.records[..self.count];
-        // SAFETY: `push` has written each of them, and `MaybeUninit<T>` lies in memory as `T` does.
-        unsafe { &mut *(core::ptr::from_mut(records) as *mut [T]) }
+    pub(crate) fn done(self) {
+        *self.written = self.count;
     }
 }

@@ -1,7 +1,7 @@
 //! `p(theta) = 1/Theta`: uniform in the angle at the emitter, so proportional to `1/r^2`.
 
 use crate::density::{self, Density, Drawn, Pdf, SetUp};
-use crate::geometry::{Angle, BIAS, Geometry, Point, RayLanes};
+use crate::geometry::{Angle, BIAS, Extent, Geometry, Point, RayLanes};
 use crate::integrand::MediumLanes;
 use crate::simd::math::{angle_of, tan};
 use crate::simd::{Isa, Lanes, Records, none};
@@ -24,7 +24,7 @@ pub(crate) struct EquiAngular<I: Isa> {
 const WIDEST: f32 = core::f32::consts::FRAC_PI_2 / (0.5 + BIAS);
 
 impl<I: Isa> Density<I> for EquiAngular<I> {
-    const COSINE: bool = false;
+    const EXTENT: Extent = Extent::Foot;
     type Place = Angle<I>;
     type SetUps = Records<SetUp<I, Self>>;
 

@@ -76,10 +76,10 @@ impl Strategy {
     }
 
     /// Whether a sampler of it can have this precision. All are exact; fast are those of which the geometry is most of the
-    /// work: `Transmittance`, `EquiAngular` and `PointNormal`. The others would gain less than a fifth.
+    /// work: `EquiAngular` and `PointNormal`. The others would gain less than a fifth.
     #[must_use]
     pub fn has_precision(self, precision: Precision) -> bool {
-        precision == Precision::Exact || matches!(self, Self::Transmittance | Self::EquiAngular | Self::PointNormal)
+        precision == Precision::Exact || matches!(self, Self::EquiAngular | Self::PointNormal)
     }
 
     /// Its name on the command line, in JSON and in prose.

@@ -4,7 +4,7 @@
 //! mass `S_b - S_a`, and `N^2 = N_e^2 - D (2 S_e + D)`. The angle from that end has `tan(delta/2) = D / (N + N_e)`.
 
 use crate::density::{self, Density, Drawn, Pdf, SetUp};
-use crate::geometry::{Angle, Geometry, Point, RayLanes};
+use crate::geometry::{Angle, Extent, Geometry, Point, RayLanes};
 use crate::integrand::MediumLanes;
 use crate::simd::math::{angle_of, tan};
 use crate::simd::{Isa, Lanes, Number, Records, none};
@@ -55,7 +55,7 @@ const LARGE: f32 = (1u64 << 60) as f32;
 pub(crate) const NEAREST: f32 = 1e-12;
 
 impl<I: Isa> Density<I> for PointNormal<I> {
-    const COSINE: bool = true;
+    const EXTENT: Extent = Extent::Cosine;
     type Place = Angle<I>;
     type SetUps = Records<SetUp<I, Self>>;
 

@@ -12,7 +12,7 @@
 pub(crate) mod knots;
 
 use crate::density::{Density, Drawn, Pdf, SetUp};
-use crate::geometry::{Geometry, Point, RayLanes};
+use crate::geometry::{Extent, Geometry, Point, RayLanes};
 use crate::integrand::{Lobe, MediumLanes, transmittance};
 use crate::simd::math::{one_minus_exp, reciprocal};
 use crate::simd::{Isa, Lanes, Number, Records, none};
@@ -236,7 +236,7 @@ fn x_and_h_over_it<I: Isa>(isa: I, h: I::V, inv_h: I::V, t_prime: I::V, r: I::V)
 }
 
 impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
-    const COSINE: bool = true;
+    const EXTENT: Extent = Extent::Cosine;
     type Place = Place<I>;
     type SetUps = Records<SetUp<I, Self>>;
 
@@ -265,8 +265,8 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
         let (h_c, x_c) = (h_c * scale, x_c * scale);
         let (h_c, x_c, y_c_c) = (w_0 * h_c, w_0 * x_c, w_0 * scale);
         // m = n.(x - y) in units of the end where N is smaller.
-        let rising = c(0.0).le(g.cosine.beta);
-        let m_end = w_0 * I::V::select(rising, g.cosine.m_a, g.cosine.m_b) * inv_y_c;
+        let rising = g.cosine.rising(isa);
+        let m_end = w_0 * g.cosine.m_least * inv_y_c;
         let half_beta = c(0.5) * g.cosine.beta.abs() * I::V::select(rising, w_0, inv_e);
         let h_x = I::V::select(rising, h_x_a, h_x_b);
 

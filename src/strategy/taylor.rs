@@ -13,7 +13,7 @@
 use super::point_normal::{NEAREST, mass_of_cosine, tan_half_at_mass};
 use crate::density::{Density, Drawn, Pdf, SetUp};
 use crate::expansion::{Expanded, ORDER};
-use crate::geometry::{Angle, Geometry, Point, RayLanes};
+use crate::geometry::{Angle, Extent, Geometry, Point, RayLanes};
 use crate::integrand::MediumLanes;
 use crate::inversion::{At, solve};
 use crate::simd::math::{SIN, angle_of, horner, horner_lanes, sin_cos, tan};
@@ -79,7 +79,7 @@ pub(crate) struct Place<I: Isa> {
 }
 
 impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
-    const COSINE: bool = true;
+    const EXTENT: Extent = Extent::Cosine;
     type Place = Place<I>;
     type SetUps = Records<SetUp<I, Self>, 2>;
 
@@ -152,7 +152,7 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
             mass_1,
             mass_2,
             p_c,
-            wanted: lit & g.foot.valid,
+            wanted: lit & g.lit.valid,
             expansion: PhantomData,
         };
         (density, lit)

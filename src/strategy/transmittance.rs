@@ -1,7 +1,7 @@
 //! `p(t) = mu_t exp(-mu_t (t - t_min)) / (1 - exp(-mu_t (t_max - t_min)))`: free-flight sampling, cut off at `t_max`.
 
 use crate::density::{self, Density, Drawn, Pdf, SetUp};
-use crate::geometry::{Geometry, Point, RayLanes};
+use crate::geometry::{Extent, Geometry, Point, RayLanes};
 use crate::integrand::MediumLanes;
 use crate::simd::math::{exp, neg_ln_1m, one_minus_exp};
 use crate::simd::{Isa, Lanes, Number, Records, none};
@@ -35,7 +35,7 @@ impl<I: Isa> Transmittance<I> {
 }
 
 impl<I: Isa> Density<I> for Transmittance<I> {
-    const COSINE: bool = false;
+    const EXTENT: Extent = Extent::Lit;
     /// The distance from `t_min` \[m\].
     type Place = I::V;
     type SetUps = Records<SetUp<I, Self>>;
@@ -76,6 +76,11 @@ impl<I: Isa> Density<I> for Transmittance<I> {
         let s = point.t - self.t_min;
         let (absorbed, _) = one_minus_exp(isa, self.mu_t * s);
         I::V::select(self.uniform, s / self.length, absorbed / self.absorbed)
+    }
+
+    #[cfg_attr(optimized, inline(always))]
+    fn outside(&self, _: I, _: Geometry<'_, I>, t: I::V) -> [I::Mask; 2] {
+        [t.le(self.t_min), self.t_max.le(t)]
     }
 
     #[cfg_attr(optimized, inline(always))]
