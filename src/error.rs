@@ -22,7 +22,7 @@ pub enum Error {
     },
     /// The strategy has no such thing.
     Unavailable {
-        /// What was asked for, such as `radiance`.
+        /// What was asked for, such as `fast precision`.
         field: &'static str,
         /// The strategy.
         strategy: Strategy,

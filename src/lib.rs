@@ -68,6 +68,7 @@ mod density;
 mod error;
 mod expansion;
 mod geometry;
+mod integral;
 mod integrand;
 mod inversion;
 #[cfg(feature = "measure")]
@@ -83,6 +84,7 @@ mod strategy;
 pub use batch::{Counts, Emitters, Media, Rays, Samples};
 pub use error::Error;
 pub use glam;
+pub use integral::{Integral, Nodes, UnknownNodes};
 #[cfg(feature = "measure")]
 #[doc(hidden)]
 pub use limits::{Limit, Operations};

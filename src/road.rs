@@ -14,7 +14,7 @@ pub(crate) mod stages;
 
 pub(crate) use evaluate::Evaluate;
 pub(crate) use pdf::Pdf;
-pub(crate) use radiance::Radiance;
+pub(crate) use radiance::{Quadrature, Radiance};
 pub(crate) use sample::Sample;
 
 use crate::batch::{Counts, Inputs, Outputs, Pads, first_values};
@@ -46,11 +46,13 @@ pub(crate) struct Method {
 
 /// What a call does with every ray.
 pub(crate) trait Task {
+    /// How it is done.
+    type Method: Copy + Send + Sync;
     /// The columns that it writes.
     type Out: Outputs;
 
     /// Takes whole lane groups from station to station, by the passes of the method.
-    fn run(machine: impl Machine, method: Method, inputs: &Inputs<'_>, out: Out<'_, Self>) -> Counts;
+    fn run(machine: impl Machine, method: Self::Method, inputs: &Inputs<'_>, out: Out<'_, Self>) -> Counts;
 }
 
 /// A task for which every density has a kernel of its own.
@@ -101,7 +103,7 @@ fn by_strategy<T: OfDensity>(machine: impl Machine, method: Method, inputs: &Inp
 }
 
 /// Takes a batch the whole way, its chunks spread over the threads.
-pub(crate) fn travel<T: Task>(backend: Backend, method: Method, inputs: &Inputs<'_>, out: Out<'_, T>) -> Counts {
+pub(crate) fn travel<T: Task>(backend: Backend, method: T::Method, inputs: &Inputs<'_>, out: Out<'_, T>) -> Counts {
     let Some((low, high)) = halves(inputs) else {
         return by_groups::<T>(backend, method, inputs, out);
     };
@@ -136,7 +138,7 @@ fn halves<'a>(inputs: &Inputs<'a>) -> Option<(Inputs<'a>, Inputs<'a>)> {
 
 /// Takes a chunk the whole way. Passes take whole lane groups and leave out the rays that do not fill one. These go one by
 /// one, or as a group with rays before them, or as a group with pads.
-fn by_groups<T: Task>(backend: Backend, method: Method, inputs: &Inputs<'_>, mut out: Out<'_, T>) -> Counts {
+fn by_groups<T: Task>(backend: Backend, method: T::Method, inputs: &Inputs<'_>, mut out: Out<'_, T>) -> Counts {
     let (lanes, rays, per_ray) = (backend.lanes(), inputs.len(), inputs.per_ray);
     match rays {
         0 => return Counts::default(),
@@ -181,7 +183,7 @@ fn by_groups<T: Task>(backend: Backend, method: Method, inputs: &Inputs<'_>, mut
 }
 
 /// Takes one ray the whole way: every lane has it, and a value of its own.
-fn one_ray<T: Task>(backend: Backend, method: Method, inputs: &Inputs<'_>, mut out: Out<'_, T>) -> Counts {
+fn one_ray<T: Task>(backend: Backend, method: T::Method, inputs: &Inputs<'_>, mut out: Out<'_, T>) -> Counts {
     let (lanes, values) = (backend.lanes(), inputs.per_ray);
     let mut pads = Pads::new();
     let everywhere = pads.of_one_ray(inputs, lanes);

@@ -129,43 +129,6 @@ impl Sampler {
         Ok(road::travel::<road::Sample>(self.backend, self.method(), &inputs, out))
     }
 
-    /// An estimate of each ray's single-scattered radiance per unit of the emitter's intensity \[1/m^2\], without a
-    /// sample: what the product density has for the integral of the integrand. For choosing between emitters, or guiding.
-    ///
-    /// Relative error against quadrature, for half of the rays and for 99 %; the families are those of `airlight accuracy`:
-    ///
-    /// | family | 3 knots | 5 | 9 | 17 |
-    /// |---|---|---|---|---|
-    /// | `generic`: a box of side 10, `mu_t` 0.7, `g` 0 and 0.9 | 5 %, 22 % | 0.2 %, 1.2 % | 0.02 %, 0.2 % | 0.002 %, 0.013 % |
-    /// | `near-emitter`: the emitter on the ray or next to it | 2.5 %, 17 % | 0.15 %, 1.8 % | 0.012 %, 0.36 % | 0.0024 %, 0.16 % |
-    /// | `infinite-rays` | 5.5 %, 35 % | 0.65 %, 2.8 % | 0.12 %, 0.65 % | 0.008 %, 0.3 % |
-    /// | `cosine`: ends at and next to the dark side | 0.35 %, 32 % | 0.045 %, 2.3 % | 0.009 %, 0.37 % | 0.002 %, 0.1 % |
-    /// | `phase`: `g` from -1 to 1 | 5.5 %, 23 % | 0.2 %, 1.25 % | 0.021 %, 0.27 % | 0.0017 %, 0.013 % |
-    /// | `peaks`: `1 - abs(g)` from 2^-24 to 1e-3, next to an emitter | 2.8 %, 34 % | 0.17 %, 2.2 % | 0.017 %, 0.53 % | 0.002 %, 0.22 % |
-    /// | `medium`: `mu_t` from 0 to 1e4 per m | 1.6 %, 30 % | 0.15 %, 2.3 % | 0.014 %, 0.5 % | 0.002 %, 0.22 % |
-    ///
-    /// No ray of them, 8192 each under two seeds, is off by more than 50 %, 4.2 %, 2 % and 0.9 %. Emitters far away and
-    /// short intervals have errors of rounding, below 0.03 %, 0.003 % and 0.0005 % for 99 %. At `abs(g)` = 1 the phase
-    /// function is 0 beside its peak, and so is the estimate. It is 0 too where the transmittance to the start of the lit
-    /// part is below f32's range, and has few digits where that is below 1e-30.
-    ///
-    /// # Errors
-    /// As [`sample`](Self::sample), and [`Error::Unavailable`] unless [`Strategy::has_radiance`].
-    pub fn radiance(
-        &self,
-        rays: &Rays<'_>,
-        emitters: &Emitters<'_>,
-        media: &Media<'_>,
-        radiance: &mut [f32],
-    ) -> Result<Counts, Error> {
-        if !self.strategy.has_radiance() {
-            return Err(Error::Unavailable { field: "radiance", strategy: self.strategy });
-        }
-        let inputs = Inputs::new(rays, emitters, media)?;
-        inputs.check("radiance", radiance)?;
-        Ok(road::travel::<road::Radiance>(self.backend, self.method(), &inputs, radiance))
-    }
-
     /// The density at given distances `t`, for multiple importance sampling \[1/m\]; 0 outside the sampled interval.
     ///
     /// It is the density of what [`sample`](Self::sample) returns, taken at `t` as rounded: where `t` resolves `r` the
@@ -251,7 +214,7 @@ impl Sampler {
             weight: Some(from_mut(&mut weight)),
             r: Some(from_mut(&mut r)),
         };
-        let counts = one::<road::Sample>(self.backend, self.method(), ray, emitter, medium, u, out);
+        let counts = one::<road::Sample>(self.backend, self.method(), ray, emitter, medium, &[u], out);
         (counts.sampled == 1).then_some(Sample { t, pdf, weight, r })
     }
 
@@ -259,7 +222,7 @@ impl Sampler {
     #[must_use]
     pub fn pdf_one(&self, ray: &Ray, emitter: &Emitter, medium: &Medium, t: f32) -> f32 {
         let mut pdf = 0.0;
-        one::<road::Pdf>(self.backend, self.method(), ray, emitter, medium, t, from_mut(&mut pdf));
+        one::<road::Pdf>(self.backend, self.method(), ray, emitter, medium, &[t], from_mut(&mut pdf));
         pdf
     }
 
@@ -267,19 +230,19 @@ impl Sampler {
     #[must_use]
     pub fn evaluate_one(&self, ray: &Ray, emitter: &Emitter, medium: &Medium, t: f32) -> f32 {
         let mut integrand = 0.0;
-        one::<road::Evaluate>(self.backend, self.method(), ray, emitter, medium, t, from_mut(&mut integrand));
+        one::<road::Evaluate>(self.backend, self.method(), ray, emitter, medium, &[t], from_mut(&mut integrand));
         integrand
     }
 }
 
-/// A batch of one ray.
-fn one<T: road::Task>(
+/// A batch of one ray, and what the task takes for it.
+pub(crate) fn one<T: road::Task>(
     backend: Backend,
-    method: Method,
+    method: T::Method,
     ray: &Ray,
     emitter: &Emitter,
     medium: &Medium,
-    given: f32,
+    given: &[f32],
     out: road::Out<'_, T>,
 ) -> Counts {
     let (origin, direction) = (ray.origin().to_array(), ray.direction().to_array());
@@ -290,6 +253,6 @@ fn one<T: road::Task>(
         t_min: from_ref(&t_min),
         t_max: from_ref(&t_max),
     };
-    let inputs = Inputs::one(rays, *emitter, *medium, from_ref(&given));
+    let inputs = Inputs::one(rays, *emitter, *medium, given);
     road::travel::<T>(backend, method, &inputs, out)
 }

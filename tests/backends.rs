@@ -11,21 +11,18 @@ const SEED: u64 = 301;
 /// All that can be asked of a sampler, as bits and counts.
 fn bits(sampler: &Sampler, columns: &Columns) -> (Vec<(&'static str, Vec<u32>)>, [Counts; 3]) {
     let (rays, emitters, media) = (columns.rays(), columns.emitters(), columns.media());
-    let mut out = [(); 7].map(|()| vec![0.0f32; columns.u.len()]);
-    let [t, pdf, weight, r, pdf_at_t, integrand, radiance] = &mut out;
+    let mut out = [(); 6].map(|()| vec![0.0f32; columns.u.len()]);
+    let [t, pdf, weight, r, pdf_at_t, integrand] = &mut out;
     const EQUAL: &str = "all columns have one length";
     let mut samples = Samples { t, pdf, weight: Some(weight), r: Some(r) };
     let sampled = sampler.sample(&rays, &emitters, &media, &columns.u, &mut samples).expect(EQUAL);
     let at_t = sampler.pdf(&rays, &emitters, &media, t, pdf_at_t).expect(EQUAL);
     sampler.evaluate(&rays, &emitters, &media, t, integrand).expect(EQUAL);
-    if sampler.strategy().has_radiance() {
-        sampler.radiance(&rays, &emitters, &media, radiance).expect(EQUAL);
-    }
     let three: Vec<f32> = columns.u.iter().flat_map(|u| [0.25 * u, 0.5 * u, *u]).collect();
     let [mut t_of_three, mut pdf_of_three] = [(); 2].map(|()| vec![0.0f32; three.len()]);
     let mut samples = Samples { t: &mut t_of_three, pdf: &mut pdf_of_three, weight: None, r: None };
     let three_sampled = sampler.sample(&rays, &emitters, &media, &three, &mut samples).expect(EQUAL);
-    let names = ["t", "pdf", "weight", "r", "pdf at t", "integrand", "radiance", "t of three", "pdf of three"];
+    let names = ["t", "pdf", "weight", "r", "pdf at t", "integrand", "t of three", "pdf of three"];
     let columns = out.into_iter().chain([t_of_three, pdf_of_three]);
     let bits = columns.map(|column| column.into_iter().map(f32::to_bits).collect());
     (names.into_iter().zip(bits).collect(), [sampled, at_t, three_sampled])

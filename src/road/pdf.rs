@@ -10,6 +10,7 @@ use crate::simd::{Isa, Lanes, Machine, Room, none};
 pub(crate) struct Pdf;
 
 impl Task for Pdf {
+    type Method = Method;
     type Out = Column;
 
     fn run(machine: impl Machine, method: Method, inputs: &Inputs<'_>, out: &mut [f32]) -> Counts {

@@ -69,12 +69,6 @@ impl Strategy {
         Self::Product17,
     ];
 
-    /// Whether it is made of the whole integrand, so that [`Sampler::radiance`](crate::Sampler::radiance) can be asked.
-    #[must_use]
-    pub fn has_radiance(self) -> bool {
-        matches!(self, Self::Product3 | Self::Product5 | Self::Product9 | Self::Product17)
-    }
-
     /// Whether a sampler of it can have this precision. All are exact; fast are those of which the geometry is most of the
     /// work: `Transmittance`, `EquiAngular` and `PointNormal`. The others would gain less than a fifth.
     #[must_use]

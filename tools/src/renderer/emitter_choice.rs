@@ -3,7 +3,7 @@
 use super::camera::RayQueue;
 use super::columns::{Vectors, places};
 use super::scene::Scene;
-use airlight::{Emitters, Error, Media, Sampler, Strategy};
+use airlight::{Emitters, Error, Integral, Media, Nodes};
 use glam::Vec3;
 use rayon::prelude::*;
 use std::fmt;
@@ -22,7 +22,7 @@ const NEIGHBOURS: usize = 8;
 pub enum EmitterChoice {
     /// All with the same probability.
     Uniform,
-    /// In proportion to intensity times the estimate of the ray's radiance that product-3 has without a sample.
+    /// In proportion to intensity times the integral of the ray's radiance with four nodes.
     #[default]
     Radiance,
 }
@@ -56,7 +56,7 @@ impl FromStr for EmitterChoice {
 #[derive(Debug)]
 pub struct Choice {
     how: EmitterChoice,
-    estimator: Sampler,
+    integral: Integral,
     guides: RayQueue,
     /// For every light, what it is expected to add to each of the guides.
     estimates: Vec<Vec<f32>>,
@@ -74,7 +74,7 @@ impl Choice {
     pub fn new(how: EmitterChoice) -> Self {
         Self {
             how,
-            estimator: Sampler::new(Strategy::Product3),
+            integral: Integral::new(Nodes::Four),
             guides: RayQueue::default(),
             estimates: Vec::new(),
             light: Vec::new(),
@@ -97,7 +97,7 @@ impl Choice {
             for (light, estimate) in scene.lights.iter().zip(&mut self.estimates) {
                 estimate.resize(self.guides.len(), 0.0);
                 let emitter = Emitters::One(light.emitter);
-                self.estimator.radiance(&self.guides.rays(), &emitter, &Media::One(scene.medium), estimate)?;
+                self.integral.radiance(&self.guides.rays(), &emitter, &Media::One(scene.medium), estimate)?;
                 let brightness = light.intensity.element_sum();
                 estimate.iter_mut().for_each(|estimate| *estimate *= brightness);
             }

@@ -1,0 +1,90 @@
+//! The radiance of a ray, without a sample.
+
+mod nodes;
+pub(crate) mod rule;
+
+pub use nodes::{Nodes, UnknownNodes};
+
+use crate::batch::{Counts, Emitters, Inputs, Media, Rays};
+use crate::road::{self, Quadrature};
+use crate::sampler::one;
+use crate::scene::{Emitter, Medium, Ray};
+use crate::simd::Backend;
+use crate::{Error, Precision};
+use core::slice::from_mut;
+
+/// The single-scattered radiance of rays per unit of the emitter's intensity \[1/m^2\], without a sample and so without
+/// noise: the integral of the integrand `mu_s T rho N / r^2` over `t`.
+///
+/// It is Gauss and Legendre's rule in the variable of the product densities, in which the integrand is nearly a polynomial.
+/// Nothing is tabulated and nothing cancels.
+#[derive(Clone, Copy, Debug)]
+pub struct Integral {
+    nodes: Nodes,
+    precision: Precision,
+    backend: Backend,
+}
+
+impl Integral {
+    /// The integral with so many nodes, on geometry as exact as there is and the widest backend of this machine.
+    #[must_use]
+    pub fn new(nodes: Nodes) -> Self {
+        Self { nodes, precision: Precision::default(), backend: Backend::detect() }
+    }
+
+    /// The same on geometry of another precision.
+    #[must_use]
+    pub fn with_precision(self, precision: Precision) -> Self {
+        Self { precision, ..self }
+    }
+
+    /// The same on another backend, for tests and measurements.
+    #[must_use]
+    pub fn with_backend(self, backend: Backend) -> Self {
+        Self { backend, ..self }
+    }
+
+    /// How many nodes it has.
+    #[must_use]
+    pub fn nodes(&self) -> Nodes {
+        self.nodes
+    }
+
+    /// Its precision.
+    #[must_use]
+    pub fn precision(&self) -> Precision {
+        self.precision
+    }
+
+    fn quadrature(&self) -> Quadrature {
+        Quadrature { nodes: self.nodes, precision: self.precision }
+    }
+
+    /// Writes the radiance of each ray.
+    ///
+    /// What is written is finite and not negative, and 0 for an empty or invalid ray. [`Counts::sampled`] counts the rays of
+    /// which something is lit. Equal inputs give equal bits, wherever they stand in a batch and however many threads there
+    /// are.
+    ///
+    /// # Errors
+    /// [`Error::Length`] if a column has another length than `rays.origin[0]`. Nothing is written then.
+    pub fn radiance(
+        &self,
+        rays: &Rays<'_>,
+        emitters: &Emitters<'_>,
+        media: &Media<'_>,
+        radiance: &mut [f32],
+    ) -> Result<Counts, Error> {
+        let inputs = Inputs::new(rays, emitters, media)?;
+        inputs.check("radiance", radiance)?;
+        Ok(road::travel::<road::Radiance>(self.backend, self.quadrature(), &inputs, radiance))
+    }
+
+    /// [`radiance`](Self::radiance) of one ray.
+    #[must_use]
+    pub fn radiance_one(&self, ray: &Ray, emitter: &Emitter, medium: &Medium) -> f32 {
+        let mut radiance = 0.0;
+        one::<road::Radiance>(self.backend, self.quadrature(), ray, emitter, medium, &[], from_mut(&mut radiance));
+        radiance
+    }
+}
