@@ -17,7 +17,22 @@ use core::slice::from_mut;
 /// noise: the integral of the integrand `mu_s T rho N / r^2` over `t`.
 ///
 /// It is Gauss and Legendre's rule in the variable of the product densities, in which the integrand is nearly a polynomial.
-/// Nothing is tabulated and nothing cancels.
+/// Nothing is tabulated and nothing cancels. Where others have tables (Sun et al. 2005) or series (Pegoraro et al. 2009),
+/// eight evaluations leave the error of f32.
+///
+/// # Errors of the result
+///
+/// Relative, against quadrature in f64: for half of the rays, for 99 %, and for all of 8192 under each of two seeds. The
+/// families are those of `airlight accuracy`.
+///
+#[doc = include_str!("integral/errors.md")]
+///
+/// The largest ones of `peaks` are backward peaks next to an emitter that shines across the ray. Emitters far away and short
+/// intervals have errors of rounding alone.
+///
+/// [`Precision::Fast`] leaves 1.2e-5 more for 99 % of ordinary rays, and misjudges light as it says
+/// [there](Precision). At `abs(g)` = 1 the phase function is 0 beside its peak, and so is the integral. It is 0 too where
+/// the transmittance to the start of the lit part is below f32's range, and has few digits where that is below 1e-30.
 #[derive(Clone, Copy, Debug)]
 pub struct Integral {
     nodes: Nodes,

@@ -113,21 +113,20 @@ impl<const K: usize> Rule<K> {
         let (x_b, h_x_b) = x_and_h_over_it(isa, h, inv_h, g.foot.b, r_b);
         let y_b = g.lit.length * ((x_a + x_b) / (r_a + r_b));
         let reach = x_a.mul_add(c(OF_X_A), c(OF_LOBE) * h * b_over_a);
-        let inv_y_c = medium.mu_t.mul_add(c(OF_MU_T), one / reach).min(c(1.0 / SHORTEST));
-        let y_c = one / inv_y_c;
+        let y_c = (one / medium.mu_t.mul_add(c(OF_MU_T), one / reach)).max(c(SHORTEST));
         let depth = medium.mu_t * y_c;
         // 1/(1 + e) and e/(1 + e).
         let inv_sum = one / (y_b + y_c);
         let (w_0, s_b) = (y_b * inv_sum, y_c * inv_sum);
         let d = w_0 / w_0.mul_add(depth.mul_add(c(OF_DEPTH), one), s_b * c(OF_E));
 
-        let (h_c, x_c) = (h * inv_y_c, x_a * inv_y_c);
-        let scale = one / h_c.max(x_c).max(one);
-        let (h_c, x_c) = (h_c * scale, x_c * scale);
-        // m in units of Y_c, from the end where N is smaller.
+        // Lengths in units of the largest: no power of them leaves f32.
+        let inv_size = one / h.max(x_a).max(y_c);
+        let (h_c, x_c, y_c_c) = (h * inv_size, x_a * inv_size, y_c * inv_size);
+        // m from the end where N is smaller.
         let rising = c(0.0).le(g.cosine.beta);
-        let m_end = I::V::select(rising, g.cosine.m_a, g.cosine.m_b) * inv_y_c;
-        let half_beta = c(0.5) * g.cosine.beta.abs() * I::V::select(rising, w_0, y_b * inv_y_c);
+        let m_end = I::V::select(rising, g.cosine.m_a, g.cosine.m_b) * inv_size;
+        let half_beta = c(0.5) * g.cosine.beta.abs() * I::V::select(rising, w_0 * y_c_c, y_b * inv_size);
         let h_x = I::V::select(rising, h_x_a, h_x_b);
 
         let mut sum = c(0.0);
@@ -142,7 +141,7 @@ impl<const K: usize> Rule<K> {
             let (_, transmittance) = one_minus_exp(isa, depth * (w / s));
 
             let p = h_c * s;
-            let q = x_c.mul_add(s, scale * w);
+            let q = x_c.mul_add(s, y_c_c * w);
             let way = I::V::select(rising, v, to_1);
             let m = m_end.mul_add(s * q, half_beta * way * p.mul_add(h_x, q));
             let p2 = p * p;
@@ -152,10 +151,10 @@ impl<const K: usize> Rule<K> {
             sum = (weight * transmittance).mul_add(numerator / (s_2 * (s_1 * s_2).sqrt()), sum);
             k += 1;
         }
-        // In this order no part of it leaves f32 before the whole does.
-        let unit = scale * scale * (w_0 * inv_y_c) * I::V::select(g.cosine.has_normal, c(4.0) * scale, c(2.0));
+        let unit = inv_size * (w_0 * y_c_c) * I::V::select(g.cosine.has_normal, c(4.0), c(2.0));
+        let mass = (sum * unit).min(c(f32::MAX));
         let start = transmittance(isa, ray, g, medium, &g.start(isa, r_a));
-        medium.mu_s * start * (height * (sum * unit))
+        (medium.mu_s * start) * (height * mass)
     }
 }
 
