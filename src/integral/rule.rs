@@ -168,10 +168,11 @@ mod tests {
         };
         for degree in 0..2 * K {
             let (sum, expected): (f64, f64) = (integral(degree), 1.0 / (degree + 1) as f64);
-            // Nodes and weights are rounded to f32.
-            assert!((sum - expected).abs() < 1e-7 * expected, "{K} nodes, degree {degree}: {sum} is not {expected}");
+            // Nodes and weights are rounded to f32: half an ulp of each factor, at most.
+            let rounding = (degree + 1) as f64 * f64::from(f32::EPSILON) / 2.0;
+            assert!((sum / expected - 1.0).abs() <= rounding, "{K} nodes, degree {degree}: {sum} is not {expected}");
         }
-        assert!(K > 6 || (integral(2 * K) - 1.0 / (2 * K + 1) as f64).abs() > 1e-8, "{K} nodes, beyond the degree");
+        assert!(K > 4 || (integral(2 * K) - 1.0 / (2 * K + 1) as f64).abs() > 1e-5, "{K} nodes, beyond the degree");
     }
 
     #[test]
