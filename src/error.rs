@@ -30,7 +30,7 @@ pub enum Error {
     /// The strategy has no such thing.
     #[non_exhaustive]
     Unavailable {
-        /// What was asked for, such as `radiance`.
+        /// What was asked for, such as `fast precision`.
         field: &'static str,
         /// The strategy.
         strategy: Strategy,

@@ -15,6 +15,7 @@
 //! | `strategy` | one file per density: its set-up, its inverse, its pdf |
 //! | `inversion` | Chebyshev's method in a bracket |
 //! | `integrand` | `mu_s T rho N` for the weight |
+//! | `integral` | the radiance of a ray without a sample, by Gauss and Legendre's rule |
 //! | `road` | threads, chunks, blocks, and the passes over a block |
 //! | `simd` | lane groups, one binding per instruction set |
 //! | [`oracle`] | all of it again in f64, written plainly, as the truth for tests |
@@ -38,7 +39,33 @@
 //! | weight | `mu_s T rho N / (r^2 pdf)` | 1/m^2 |
 //!
 //! The single-scattered radiance of a ray, per unit of the emitter's intensity, is the integral of the integrand
-//! `mu_s T rho N / r^2` over `t`, and the mean of the weights.
+//! `mu_s T rho N / r^2` over `t`, and the mean of the weights. Without occluders no sample is needed: [`Integral`] has it.
+//!
+//! # Noise-free fog lights
+//!
+//! ```
+//! use airlight::glam::Vec3;
+//! use airlight::{Emitter, Integral, Medium, Nodes, Ray};
+//!
+//! # fn main() -> Result<(), airlight::Error> {
+//! let fog = Medium::new(0.01, 0.1, 0.6)?; // mu_a, mu_s [1/m], g
+//! let view = Ray::new(Vec3::ZERO, Vec3::Z, 0.0, 40.0)?;
+//! let integral = Integral::new(Nodes::Eight);
+//! let mut radiance = 0.0;
+//! # let mut expected = 0.0;
+//! for x in [-2.0, 2.0] {
+//!     let lamp = Emitter::point_normal(Vec3::new(x, 1.0, 3.0), Vec3::NEG_Y)?;
+//!     radiance += 100.0 * integral.radiance_one(&view, &lamp, &fog); // 100 W/sr
+//! #   expected += 100.0 * airlight::oracle::Scene::new(&view, &lamp, &fog).radiance();
+//! }
+//! # assert!(expected > 0.1 && (f64::from(radiance) / expected - 1.0).abs() < 1e-5);
+//! println!("{radiance} W/(m^2 sr)");
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! [`Integral::radiance`] does the same for the rays of a picture at once. With occluders, take the integral times the share
+//! of the light that is visible: the sum of `V w` over that of `w`, of samples with the weights `w`.
 //!
 //! Which strategy to take: see [`Strategy`].
 //!
@@ -55,7 +82,7 @@
 //! | (13)-(20) Taylor expansion of the phase function | `strategy/taylor_phase`; [`oracle::paper`] |
 //! | (22)-(30) the integral of polynomial times cosine | [`oracle::paper`]; `strategy/taylor` has a form that does not cancel |
 //!
-//! The product densities (`strategy/product`) are our own derivation.
+//! The product densities (`strategy/product`) and the rule of the integral (`integral/rule`) are our own derivation.
 //!
 //! # What may grow
 //!
@@ -106,6 +133,7 @@ mod density;
 mod error;
 mod expansion;
 mod geometry;
+mod integral;
 mod integrand;
 mod inversion;
 #[cfg(feature = "measure")]
@@ -121,6 +149,7 @@ mod threads;
 
 pub use batch::{Counts, Emitters, Media, Rays, Samples};
 pub use error::Error;
+pub use integral::{Integral, Nodes, UnknownNodes};
 #[cfg(feature = "measure")]
 #[doc(hidden)]
 pub use limits::{Limit, Operations};

@@ -14,17 +14,19 @@ pub(crate) mod stages;
 
 pub(crate) use at_distance::{Cdf, Pdf};
 pub(crate) use evaluate::Evaluate;
-pub(crate) use radiance::Radiance;
+pub(crate) use radiance::{Quadrature, Radiance};
 pub(crate) use sample::Sample;
 
-use crate::batch::{Counts, Inputs, Outputs, Pads, first_values};
+use crate::batch::{Counts, Inputs, Outputs, Pads, Rays, first_values};
 use crate::density::Kind;
+use crate::scene::{Emitter, Medium, Ray};
 use crate::simd::{Backend, Isa, Kernel, MOST_LANES, Machine};
 use crate::strategy::product::knots;
 use crate::strategy::{equi_angular, point_normal, taylor_phase, taylor_transmittance, transmittance};
 use crate::{Precision, Strategy, Threads};
 use core::marker::PhantomData;
 use core::ops::Range;
+use core::slice::from_ref;
 
 /// Values per chunk: up to 22 columns of this many are 352 KiB, which stay in a core's cache.
 const CHUNK: usize = 4096;
@@ -46,11 +48,13 @@ pub(crate) struct Method {
 
 /// What a call does with every ray.
 pub(crate) trait Task {
+    /// How it is done.
+    type Method: Copy + Send + Sync;
     /// The columns that it writes.
     type Out: Outputs;
 
     /// Takes whole lane groups from station to station, by the passes of the method.
-    fn run(machine: impl Machine, method: Method, inputs: &Inputs<'_>, out: Out<'_, Self>) -> Counts;
+    fn run(machine: impl Machine, method: Self::Method, inputs: &Inputs<'_>, out: Out<'_, Self>) -> Counts;
 }
 
 /// A task for which every density has a kernel of its own.
@@ -104,7 +108,7 @@ fn by_strategy<T: OfDensity>(machine: impl Machine, method: Method, inputs: &Inp
 pub(crate) fn travel<T: Task>(
     threads: Threads,
     backend: Backend,
-    method: Method,
+    method: T::Method,
     inputs: &Inputs<'_>,
     out: Out<'_, T>,
 ) -> Counts {
@@ -121,6 +125,24 @@ pub(crate) fn travel<T: Task>(
         return low + high;
     }
     travel::<T>(threads, backend, method, &low, out_low) + travel::<T>(threads, backend, method, &high, out_high)
+}
+
+/// Takes one ray the whole way, with what the task takes for it.
+pub(crate) fn travel_one<T: Task>(
+    backend: Backend,
+    method: T::Method,
+    (ray, emitter, medium): (&Ray, &Emitter, &Medium),
+    given: &[f32],
+    out: Out<'_, T>,
+) -> Counts {
+    let (origin, direction, t_min, t_max) = (ray.origin(), ray.direction(), ray.t_min(), ray.t_max());
+    let rays = Rays::new(
+        [0, 1, 2].map(|k| from_ref(&origin[k])),
+        [0, 1, 2].map(|k| from_ref(&direction[k])),
+        from_ref(&t_min),
+        from_ref(&t_max),
+    );
+    by_groups::<T>(backend, method, &Inputs::one(rays, *emitter, *medium, given), out)
 }
 
 /// Halves of whole chunks, so that only the last chunk is cut short; `None` for a single chunk.
@@ -144,7 +166,7 @@ fn halves<'a>(inputs: &Inputs<'a>) -> Option<(Inputs<'a>, Inputs<'a>)> {
 
 /// Takes a chunk the whole way. Passes take whole lane groups and leave out the rays that do not fill one. These go one by
 /// one, or as a group with rays before them, or as a group with pads.
-fn by_groups<T: Task>(backend: Backend, method: Method, inputs: &Inputs<'_>, mut out: Out<'_, T>) -> Counts {
+fn by_groups<T: Task>(backend: Backend, method: T::Method, inputs: &Inputs<'_>, mut out: Out<'_, T>) -> Counts {
     let (lanes, rays, per_ray) = (backend.lanes(), inputs.len(), inputs.per_ray);
     match rays {
         0 => return Counts::default(),
@@ -189,7 +211,7 @@ fn by_groups<T: Task>(backend: Backend, method: Method, inputs: &Inputs<'_>, mut
 }
 
 /// Takes one ray the whole way: every lane has it, and a value of its own.
-fn one_ray<T: Task>(backend: Backend, method: Method, inputs: &Inputs<'_>, mut out: Out<'_, T>) -> Counts {
+fn one_ray<T: Task>(backend: Backend, method: T::Method, inputs: &Inputs<'_>, mut out: Out<'_, T>) -> Counts {
     let (lanes, values) = (backend.lanes(), inputs.per_ray);
     let mut pads = Pads::new();
     let everywhere = pads.of_rays(inputs, lanes);

@@ -5,7 +5,7 @@ use crate::road::Method;
 use crate::scene::{Emitter, Medium, Ray};
 use crate::simd::Backend;
 use crate::{Error, Precision, Strategy, Threads, road};
-use core::slice::{from_mut, from_ref};
+use core::slice::from_mut;
 
 /// Samples scattering distances of one density.
 ///
@@ -85,7 +85,7 @@ impl Sampler {
     }
 
     /// Takes a batch the whole way.
-    fn travel<T: road::Task>(&self, inputs: &Inputs<'_>, out: road::Out<'_, T>) -> Counts {
+    fn travel<T: road::Task<Method = Method>>(&self, inputs: &Inputs<'_>, out: road::Out<'_, T>) -> Counts {
         road::travel::<T>(self.threads, self.backend, self.method(), inputs, out)
     }
 
@@ -143,43 +143,6 @@ impl Sampler {
             inputs.check_given("samples.r", r)?;
         }
         Ok(self.travel::<road::Sample>(&inputs, samples.reborrow()))
-    }
-
-    /// An estimate of each ray's single-scattered radiance per unit of the emitter's intensity \[1/m^2\], without a
-    /// sample: what the product density has for the integral of the integrand. For choosing between emitters, or guiding.
-    ///
-    /// Relative error against quadrature, for half of the rays and for 99 %; the families are those of `airlight accuracy`:
-    ///
-    /// | family | 3 knots | 5 | 9 | 17 |
-    /// |---|---|---|---|---|
-    /// | `generic`: a box of side 10, `mu_t` 0.7, `g` 0 and 0.9 | 5 %, 22 % | 0.2 %, 1.2 % | 0.02 %, 0.2 % | 0.002 %, 0.013 % |
-    /// | `near-emitter`: the emitter on the ray or next to it | 2.5 %, 17 % | 0.15 %, 1.8 % | 0.012 %, 0.36 % | 0.0024 %, 0.16 % |
-    /// | `infinite-rays` | 5.5 %, 35 % | 0.65 %, 2.8 % | 0.12 %, 0.65 % | 0.008 %, 0.3 % |
-    /// | `cosine`: ends at and next to the dark side | 0.35 %, 32 % | 0.045 %, 2.3 % | 0.009 %, 0.37 % | 0.002 %, 0.1 % |
-    /// | `phase`: `g` from -1 to 1 | 5.5 %, 23 % | 0.2 %, 1.25 % | 0.021 %, 0.27 % | 0.0017 %, 0.013 % |
-    /// | `peaks`: `1 - abs(g)` from 2^-24 to 1e-3, next to an emitter | 2.8 %, 34 % | 0.17 %, 2.2 % | 0.017 %, 0.53 % | 0.002 %, 0.22 % |
-    /// | `medium`: `mu_t` from 0 to 1e4 per m | 1.6 %, 30 % | 0.15 %, 2.3 % | 0.014 %, 0.5 % | 0.002 %, 0.22 % |
-    ///
-    /// No ray of them, 8192 each under two seeds, is off by more than 50 %, 4.2 %, 2 % and 0.9 %. Emitters far away and
-    /// short intervals have errors of rounding, below 0.03 %, 0.003 % and 0.0005 % for 99 %. At `abs(g)` = 1 the phase
-    /// function is 0 beside its peak, and so is the estimate. It is 0 too where the transmittance to the start of the lit
-    /// part is below f32's range, and has few digits where that is below 1e-30.
-    ///
-    /// # Errors
-    /// As [`sample`](Self::sample), and [`Error::Unavailable`] unless [`Strategy::has_radiance`].
-    pub fn radiance(
-        &self,
-        rays: &Rays<'_>,
-        emitters: &Emitters<'_>,
-        media: &Media<'_>,
-        radiance: &mut [f32],
-    ) -> Result<Counts, Error> {
-        if !self.strategy.has_radiance() {
-            return Err(Error::Unavailable { field: "radiance", strategy: self.strategy });
-        }
-        let inputs = Inputs::new(rays, emitters, media)?;
-        inputs.check("radiance", radiance)?;
-        Ok(self.travel::<road::Radiance>(&inputs, radiance))
     }
 
     /// The density at given distances `t`, for multiple importance sampling \[1/m\]; 0 outside the sampled interval.
@@ -322,8 +285,8 @@ impl Sampler {
         integrand
     }
 
-    /// A batch of one ray.
-    fn one<T: road::Task>(
+    /// Takes one ray the whole way.
+    fn one<T: road::Task<Method = Method>>(
         &self,
         ray: &Ray,
         emitter: &Emitter,
@@ -331,14 +294,6 @@ impl Sampler {
         given: f32,
         out: road::Out<'_, T>,
     ) -> Counts {
-        let (origin, direction) = (ray.origin(), ray.direction());
-        let (t_min, t_max) = (ray.t_min(), ray.t_max());
-        let rays = Rays::new(
-            [0, 1, 2].map(|k| from_ref(&origin[k])),
-            [0, 1, 2].map(|k| from_ref(&direction[k])),
-            from_ref(&t_min),
-            from_ref(&t_max),
-        );
-        self.travel::<T>(&Inputs::one(rays, *emitter, *medium, from_ref(&given)), out)
+        road::travel_one::<T>(self.backend, self.method(), (ray, emitter, medium), &[given], out)
     }
 }

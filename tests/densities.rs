@@ -5,6 +5,7 @@ mod scenes;
 
 use airlight::oracle::quadrature::integrate_pieces;
 use airlight::{Emitter, Medium, Ray, Sampler, Strategy};
+use airlight_tools::contender::PRODUCTS;
 use glam::Vec3;
 use scenes::{Case, Columns, Random, Row, ulp};
 
@@ -79,7 +80,7 @@ fn the_pdf_integrates_to_1() {
             f64::from(sampler.pdf_one(&case.ray, &case.emitter, &case.medium, t)) / scene.pdf(variable, f64::from(t))
         };
         // A product density has kinks at its knots, which short pieces let the quadrature see.
-        let pieces = if strategy.has_radiance() { 256 } else { 16 };
+        let pieces = if PRODUCTS.contains(&strategy) { 256 } else { 16 };
         let ends: Vec<f64> = (0..=pieces).map(|i| f64::from(i) / f64::from(pieces)).collect();
         let mass = integrate_pieces(density, &ends, 1e-6);
         assert!((mass - 1.0).abs() <= 1e-5, "{strategy}: {mass}, seed {SEED}, {case:?}");
@@ -147,7 +148,7 @@ fn sample_pdf_and_evaluate_agree_at_the_sample() {
         let drawn = columns.sample(&sampler);
         // Between steep knots a product density has the error of v: relative to its mean, not to itself.
         let spread = scene.invert(strategy, 0.75) - scene.invert(strategy, 0.25);
-        let vanishing = if strategy.has_radiance() { 1e-6 * 0.5 / spread } else { 0.0 };
+        let vanishing = if PRODUCTS.contains(&strategy) { 1e-6 * 0.5 / spread } else { 0.0 };
         columns.0[Columns::GIVEN] = drawn.t.clone();
         let (pdf, integrand) = (columns.pdf(&sampler), columns.evaluate(&sampler));
         for i in 0..columns.len() {

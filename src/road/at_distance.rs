@@ -38,6 +38,7 @@ impl Question for Cdf {
 }
 
 impl<Q: Question> Task for Q {
+    type Method = Method;
     type Out = Column;
 
     fn run(machine: impl Machine, method: Method, inputs: &Inputs<'_>, out: &mut [f32]) -> Counts {

@@ -11,6 +11,7 @@ use crate::simd::{GROUPS, Isa, Kernel, Lanes, Machine, none};
 pub(crate) struct Evaluate;
 
 impl Task for Evaluate {
+    type Method = Method;
     type Out = Column;
 
     fn run(machine: impl Machine, method: Method, inputs: &Inputs<'_>, out: &mut [f32]) -> Counts {

@@ -12,6 +12,7 @@ use crate::simd::{GROUPS, Isa, Lanes, Machine, Records, Room};
 pub(crate) struct Sample;
 
 impl Task for Sample {
+    type Method = Method;
     type Out = OfSamples;
 
     fn run(machine: impl Machine, method: Method, inputs: &Inputs<'_>, out: Samples<'_>) -> Counts {
@@ -28,6 +29,7 @@ impl Task for Sample {
 struct Drawing<const WITH_WEIGHT_OR_R: bool>;
 
 impl<const WITH_WEIGHT_OR_R: bool> Task for Drawing<WITH_WEIGHT_OR_R> {
+    type Method = Method;
     type Out = OfSamples;
 
     fn run(machine: impl Machine, method: Method, inputs: &Inputs<'_>, out: Samples<'_>) -> Counts {

@@ -49,6 +49,7 @@ impl Outputs for Stage {
 }
 
 impl Task for UpTo {
+    type Method = Method;
     type Out = Stage;
 
     fn run(machine: impl Machine, method: Method, inputs: &Inputs<'_>, stage: Stage) -> Counts {

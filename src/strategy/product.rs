@@ -13,7 +13,7 @@ pub(crate) mod knots;
 
 use crate::density::{Density, Drawn, Pdf, SetUp};
 use crate::geometry::{Extent, Geometry, Point, RayLanes};
-use crate::integrand::{Lobe, MediumLanes, transmittance};
+use crate::integrand::{Lobe, MediumLanes};
 use crate::simd::math::{one_minus_exp, reciprocal};
 use crate::simd::{Isa, Lanes, Number, Records, none};
 
@@ -74,8 +74,6 @@ pub(crate) struct Product<I: Isa, const K: usize> {
     w_0: I::V,
     /// The density over `v` at the knots; its integral is 1.
     f: [I::V; K],
-    /// The integral of the integrand over `mu_s (1 - g^2)/(4 pi)` and the transmittance at the start.
-    mass: I::V,
 }
 
 /// Where a variate leads: `v`, `1 - v`, and the density over `v`.
@@ -204,19 +202,6 @@ impl<I: Isa, const K: usize> Product<I, K> {
         (s, below)
     }
 
-    /// The integral of the integrand, as the knots have it \[1/m^2\].
-    #[cfg_attr(optimized, inline(always))]
-    pub(crate) fn radiance(
-        &self,
-        isa: I,
-        ray: &RayLanes<I>,
-        geometry: Geometry<'_, I>,
-        medium: &MediumLanes<I>,
-    ) -> I::V {
-        let start = transmittance(isa, ray, geometry, medium, &geometry.start(isa, self.r_a));
-        medium.mu_s * start * (medium.lobe.height * self.mass)
-    }
-
     /// From a density over `v` where `Y + Y_c = Y_c/s`: `dv/dt = (dv/dY) X/r`.
     #[cfg_attr(optimized, inline(always))]
     fn pdf_over_v(&self, isa: I, p_v: I::V, s: I::V, x: I::V, r: I::V) -> Pdf<I> {
@@ -228,7 +213,7 @@ impl<I: Isa, const K: usize> Product<I, K> {
 
 /// `X` at an end without cancellation, and `h/X`, of one division.
 #[cfg_attr(optimized, inline(always))]
-fn x_and_h_over_it<I: Isa>(isa: I, h: I::V, inv_h: I::V, t_prime: I::V, r: I::V) -> (I::V, I::V) {
+pub(crate) fn x_and_h_over_it<I: Isa>(isa: I, h: I::V, inv_h: I::V, t_prime: I::V, r: I::V) -> (I::V, I::V) {
     let forward = isa.splat(0.0).lt(t_prime);
     let long = r + t_prime.abs();
     let short = h / long;
@@ -305,10 +290,7 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
             f[k] = I::V::select(usable, f[k] * norm, one);
             k += 1;
         }
-        // f stands for the integrand over v times this.
-        let unit = scale * scale * (w_0 * inv_y_c) * I::V::select(g.cosine.has_normal, c(4.0) * scale, c(2.0));
-        let mass = I::V::only(usable, mass) * unit;
-        let density = Self { r_a, r_b, x_a, h_x_a, h_x_b, y_c, inv_y_c, e, inv_e, w_0, f, mass };
+        let density = Self { r_a, r_b, x_a, h_x_a, h_x_b, y_c, inv_y_c, e, inv_e, w_0, f };
         (density, g.lit(isa) & g.bright(isa, &ends))
     }
 

@@ -36,7 +36,9 @@ impl Place {
     pub fn scene(&self) -> Option<Scene> {
         let normal = self.normal.map(|[along, towards]| Vec3::new(along, -towards, 0.0));
         let medium = Medium::new(0.0, self.mu_t, self.g).ok()?;
-        along_x(self.length.unwrap_or(f32::INFINITY), (self.foot, 1.0), normal, medium).ok()
+        along_x(self.length.unwrap_or(f32::INFINITY), (self.foot, 1.0), normal, medium)
+            .and_then(|case| case.scene())
+            .ok()
     }
 }
 

@@ -6,6 +6,7 @@
 
 mod fast;
 
+use crate::contender::PRODUCTS;
 use crate::errors::{Errors, quantile};
 use crate::families::Family;
 use airlight::{Precision, Strategy};
@@ -116,7 +117,7 @@ fn high_quantile(ascending: &[f64], p: f64) -> f64 {
 /// hundredth, and errors of the optical depth count as often as it is deep; or where `N = 0`, and the line is the difference
 /// of two knots. Of the mean over the interval the errors there are 6 ulp at p99.
 fn vanishing(strategy: Strategy, family: Family) -> bool {
-    strategy.has_radiance() && family == Family::Variate
+    PRODUCTS.contains(&strategy) && family == Family::Variate
 }
 
 /// Whether a line of three knots joins a peak of the phase function and next to nothing. Beside the knot where it is next to
@@ -133,7 +134,7 @@ fn pdf_p99(strategy: Strategy, family: Family) -> f64 {
         // Seen 12.2.
         _ if vanishing(strategy, family) => 14.0,
         // Few of them are rays: 7.3 in 2^20 of them, 8.1 in 2^16.
-        Family::RandomBits if strategy.has_radiance() => 10.0,
+        Family::RandomBits if PRODUCTS.contains(&strategy) => 10.0,
         // Seen 8.0: with three knots the line to a dark end is a difference more often.
         Family::NearEmitter if strategy == Strategy::Product3 => 9.0,
         // Seen 15.0.

@@ -5,6 +5,9 @@ use airlight::oracle::Scene;
 use std::fmt;
 use std::str::FromStr;
 
+/// The product densities.
+pub const PRODUCTS: [Strategy; 4] = [Strategy::Product3, Strategy::Product5, Strategy::Product9, Strategy::Product17];
+
 /// A density whose variance is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Contender {

@@ -30,6 +30,8 @@ const OFF_THE_ENDS: f64 = f64::EPSILON / 2.0;
 const DEPTH: f64 = 30.0;
 /// Values below this are too near to the end of f32's range to be compared.
 const TINY: f64 = 1e-30;
+/// The smallest radiance that f32 has with all digits, and a little room.
+const LEAST_RADIANCE: f64 = 1e-37;
 
 /// Kinds of errors that are listed.
 const KINDS: usize = 13;
@@ -414,6 +416,14 @@ fn depth(scene: &Scene, t: f64) -> f64 {
 /// How far `x` is outside an interval; not a number where one of them is none.
 fn beyond([low, high]: [f64; 2], x: f64) -> f64 {
     if low <= x && x <= high { 0.0 } else { if x < low { low - x } else { x - high } }
+}
+
+/// Whether f32 has all digits of the radiance, and of the transmittance to the start of the lit part, which the integral has
+/// as a factor.
+#[must_use]
+pub fn is_comparable(scene: &Scene, radiance: f64) -> bool {
+    let start = scene.lit().map_or(0.0, |(t_a, _)| scene.transmittance(t_a));
+    radiance > LEAST_RADIANCE && start > TINY && !beyond_f32(scene)
 }
 
 /// Whether the lit interval is so short that it may as well count as empty, as [`airlight::Counts::empty`] says.

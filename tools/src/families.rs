@@ -136,18 +136,44 @@ pub struct Case {
 }
 
 impl Case {
-    /// The scene of the oracle, if the case is a valid one.
+    /// A ray with its emitter and medium.
+    #[must_use]
+    pub(crate) fn new(ray: &Ray, emitter: &Emitter, medium: &Medium) -> Self {
+        Self {
+            origin: ray.origin().into(),
+            direction: ray.direction().into(),
+            t_min: ray.t_min(),
+            t_max: ray.t_max(),
+            position: emitter.position().into(),
+            normal: emitter.normal().unwrap_or_default().into(),
+            mu_a: medium.mu_a(),
+            mu_s: medium.mu_s(),
+            g: medium.g(),
+            u: 0.5,
+        }
+    }
+
+    /// The ray, the emitter and the medium, if they are valid.
     ///
     /// # Errors
     /// Whatever the constructors find.
-    pub fn scene(&self) -> Result<Scene, Error> {
+    pub fn parts(&self) -> Result<(Ray, Emitter, Medium), Error> {
         let ray = Ray::new(self.origin, self.direction, self.t_min, self.t_max)?;
         let emitter = if self.normal == Vec3::ZERO {
             Emitter::point(self.position)?
         } else {
             Emitter::point_normal(self.position, self.normal)?
         };
-        Ok(Scene::new(&ray, &emitter, &Medium::new(self.mu_a, self.mu_s, self.g)?))
+        Ok((ray, emitter, Medium::new(self.mu_a, self.mu_s, self.g)?))
+    }
+
+    /// The scene of the oracle, if the case is a valid one.
+    ///
+    /// # Errors
+    /// As [`parts`](Self::parts).
+    pub fn scene(&self) -> Result<Scene, Error> {
+        let (ray, emitter, medium) = self.parts()?;
+        Ok(Scene::new(&ray, &emitter, &medium))
     }
 
     /// Whether a coordinate is beyond what is promised to be told from invalid, `mu_s` so small that its products leave f32,
@@ -158,7 +184,14 @@ impl Case {
         farthest > FARTHEST || (self.mu_s > 0.0 && self.mu_s < 1e-30) || self.mu_a + self.mu_s > FARTHEST
     }
 
-    fn generic(draw: &mut Draw) -> Self {
+    /// The same in another medium.
+    #[must_use]
+    pub(crate) fn within(self, medium: &Medium) -> Self {
+        Self { mu_a: medium.mu_a(), mu_s: medium.mu_s(), g: medium.g(), ..self }
+    }
+
+    /// A case of the generic box.
+    pub(crate) fn generic(draw: &mut Draw) -> Self {
         let normal = if draw.below(8) == 0 { Vec3::ZERO } else { draw.direction() };
         Self {
             origin: Vec3::from_array([0; 3].map(|_| draw.between(-5.0, 5.0))),

@@ -5,6 +5,7 @@
 mod accuracy;
 mod arguments;
 mod check;
+mod integral;
 mod npy;
 mod output;
 mod profile;
@@ -41,6 +42,7 @@ enum Command {
     Render(render::Args),
     Accuracy(accuracy::Args),
     Variance(variance::Args),
+    Integral(integral::Args),
     Profile(profile::Args),
     Report(report::Args),
 }
@@ -61,6 +63,7 @@ fn main() -> ExitCode {
         Command::Render(args) => render::run(&args).map(|()| ExitCode::SUCCESS),
         Command::Accuracy(args) => accuracy::run(&args),
         Command::Variance(args) => variance::run(&args).map(|()| ExitCode::SUCCESS),
+        Command::Integral(args) => integral::run(&args).map(|()| ExitCode::SUCCESS),
         Command::Profile(args) => profile::run(&args).map(|()| ExitCode::SUCCESS),
         Command::Report(args) => report::run(&args).map(|()| ExitCode::SUCCESS),
     };

@@ -1,11 +1,11 @@
 //! `airlight profile`: how fast the kernels are, stage by stage, beside what the machine allows.
 
 mod arithmetic;
-mod clock;
+pub(crate) mod clock;
 mod figures;
 mod instructions;
 mod peers;
-mod rounds;
+pub(crate) mod rounds;
 mod streams;
 mod subject;
 mod work;

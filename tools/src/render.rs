@@ -42,7 +42,7 @@ pub(crate) struct Args {
     /// Sample every ray from the transmittance too, and combine the two samples by the balance heuristic
     #[arg(long)]
     mis: bool,
-    /// Choice of the light that a ray gathers: uniform, or radiance for the estimates of product-3
+    /// Choice of the light that a ray gathers: uniform, or radiance for the integrals with 4 nodes
     #[arg(long, value_name = "NAME", default_value_t = EmitterChoice::Radiance)]
     lights: EmitterChoice,
     /// Passes, each of which takes one sample of every pixel [default: 64]

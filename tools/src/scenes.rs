@@ -1,6 +1,7 @@
-//! Sets of scenes on which variances are compared.
+//! Sets of scenes on which variances and integrals are compared.
 
 use crate::draw::Draw;
+use crate::families::{Case, Family};
 use airlight::oracle::Scene;
 use airlight::{Emitter, Error, Medium, Ray};
 use glam::Vec3;
@@ -11,6 +12,10 @@ pub enum Set {
     /// `h` 1e-4 to 1e2 m, the emitter beside, before or behind a ray of 1e-3 to 1e4 m or without end, `mu_t h` 1e-4 to
     /// 100, `g` -0.95 to 0.99, with no normal, any, one that is dark near an end of the ray, or one along it.
     Broad,
+    /// The family `generic`: rays in a box of side 10 around the emitter, any normal, `mu_t` 0.7 per m, `g` 0 or 0.9.
+    Generic,
+    /// The same in `mu_t` 4 per m, `g` 0 to 0.95.
+    Dense,
     /// `h` 0.1 to 10 m, rays of 0.5 to 20 m, `mu_t h` up to 3, `g` 0 to 0.9, with no normal or any.
     Tame,
     /// Camera rays through a box of side 4 m with the emitter in its middle, `mu_a` 0.5 and `mu_s` 0.2 per m.
@@ -28,6 +33,8 @@ impl Set {
     pub fn name(self) -> &'static str {
         match self {
             Self::Broad => "broad",
+            Self::Generic => "generic",
+            Self::Dense => "dense",
             Self::Tame => "tame",
             Self::Canonical { forward: false, normal: false } => "canonical-g0-point",
             Self::Canonical { forward: false, normal: true } => "canonical-g0-point-normal",
@@ -43,6 +50,8 @@ impl Set {
             .map(|(forward, normal)| Self::Canonical { forward, normal });
         match name {
             "broad" => Some(vec![Self::Broad]),
+            "generic" => Some(vec![Self::Generic]),
+            "dense" => Some(vec![Self::Dense]),
             "tame" => Some(vec![Self::Tame]),
             "canonical" => Some(canonical.to_vec()),
             _ => canonical.into_iter().find(|set| set.name() == name).map(|set| vec![set]),
@@ -52,11 +61,24 @@ impl Set {
     /// The first `count` scenes under a seed of which something is lit.
     #[must_use]
     pub fn scenes(self, seed: u64, count: usize) -> Vec<Scene> {
-        (0..).filter_map(|index| self.scene(seed, index)).filter(|scene| scene.lit().is_some()).take(count).collect()
+        self.lit(seed).map(|(_, scene)| scene).take(count).collect()
     }
 
-    fn scene(self, seed: u64, index: u64) -> Option<Scene> {
+    /// The same with the f32 values that describe them.
+    #[must_use]
+    pub fn cases(self, seed: u64, count: usize) -> Vec<(Case, Scene)> {
+        self.lit(seed).take(count).collect()
+    }
+
+    fn lit(self, seed: u64) -> impl Iterator<Item = (Case, Scene)> {
+        let case = move |index| self.case(seed, index).and_then(|case| Some((case, case.scene().ok()?)));
+        (0..).filter_map(case).filter(|(_, scene)| scene.lit().is_some())
+    }
+
+    fn case(self, seed: u64, index: u64) -> Option<Case> {
         match self {
+            Self::Generic => Ok(Family::Generic.case(seed, index)),
+            Self::Dense => dense(&mut Draw::new(seed, 67, index)),
             Self::Broad => broad(&mut Draw::new(seed, 64, index)),
             Self::Tame => tame(&mut Draw::new(seed, 65, index)),
             Self::Canonical { forward, normal } => {
@@ -67,7 +89,12 @@ impl Set {
     }
 }
 
-fn broad(draw: &mut Draw) -> Result<Scene, Error> {
+fn dense(draw: &mut Draw) -> Result<Case, Error> {
+    let case = Case::generic(draw);
+    Ok(case.within(&Medium::new(0.0, 4.0, draw.between(0.0, 0.95))?))
+}
+
+fn broad(draw: &mut Draw) -> Result<Case, Error> {
     let h = draw.log_between(1e-4, 1e2);
     let mu_t = draw.log_between(1e-4, 1e2) / h;
     let g = draw.between(-0.95, 0.99);
@@ -90,7 +117,7 @@ fn broad(draw: &mut Draw) -> Result<Scene, Error> {
     along_x(length, (foot, h), normal, Medium::new(0.0, mu_t, g)?)
 }
 
-fn tame(draw: &mut Draw) -> Result<Scene, Error> {
+fn tame(draw: &mut Draw) -> Result<Case, Error> {
     let h = draw.log_between(0.1, 10.0);
     let mu_t = draw.between(0.0, 3.0) / h;
     let g = draw.between(0.0, 0.9);
@@ -100,7 +127,7 @@ fn tame(draw: &mut Draw) -> Result<Scene, Error> {
     along_x(length, (foot, h), normal, Medium::new(0.0, mu_t, g)?)
 }
 
-fn canonical(draw: &mut Draw, g: f32, with_normal: bool) -> Result<Scene, Error> {
+fn canonical(draw: &mut Draw, g: f32, with_normal: bool) -> Result<Case, Error> {
     const HALF_SIDE: f32 = 2.0;
     let camera = 6.0 * draw.direction();
     let mut coordinate = || draw.between(-HALF_SIDE, HALF_SIDE);
@@ -109,7 +136,7 @@ fn canonical(draw: &mut Draw, g: f32, with_normal: bool) -> Result<Scene, Error>
     let (t_min, t_max) = (faces[0].min(faces[1]).max_element(), faces[0].max(faces[1]).min_element());
     let ray = Ray::new(camera, direction, t_min, t_max)?;
     let normal = with_normal.then(|| draw.direction());
-    Ok(Scene::new(&ray, &emitter(Vec3::ZERO, normal)?, &Medium::new(0.5, 0.2, g)?))
+    Ok(Case::new(&ray, &emitter(Vec3::ZERO, normal)?, &Medium::new(0.5, 0.2, g)?))
 }
 
 /// A normal whose emitter is dark at `t'` \[m\] and on one side of it.
@@ -118,14 +145,9 @@ fn dark_at(t_prime: f32, h: f32, draw: &mut Draw) -> Vec3 {
 }
 
 /// A ray from the origin along x, with the emitter `h` \[m\] beside it at `foot` \[m\].
-pub(crate) fn along_x(
-    length: f32,
-    (foot, h): (f32, f32),
-    normal: Option<Vec3>,
-    medium: Medium,
-) -> Result<Scene, Error> {
+pub(crate) fn along_x(length: f32, (foot, h): (f32, f32), normal: Option<Vec3>, medium: Medium) -> Result<Case, Error> {
     let ray = Ray::new(Vec3::ZERO, Vec3::X, 0.0, length)?;
-    Ok(Scene::new(&ray, &emitter(Vec3::new(foot, h, 0.0), normal)?, &medium))
+    Ok(Case::new(&ray, &emitter(Vec3::new(foot, h, 0.0), normal)?, &medium))
 }
 
 fn emitter(position: Vec3, normal: Option<Vec3>) -> Result<Emitter, Error> {
@@ -138,7 +160,8 @@ mod tests {
 
     #[test]
     fn names_are_found_again() {
-        for set in ["broad", "tame", "canonical"].iter().flat_map(|name| Set::named(name).unwrap()) {
+        for set in ["broad", "generic", "dense", "tame", "canonical"].iter().flat_map(|name| Set::named(name).unwrap())
+        {
             assert_eq!(Set::named(set.name()), Some(vec![set]));
         }
         assert_eq!(Set::named("narrow"), None);
@@ -163,7 +186,8 @@ mod tests {
     #[test]
     fn an_emitter_is_dark_at_its_horizon() {
         let normal = dark_at(3.0, 0.5, &mut Draw::new(0, 0, 0));
-        let scene = along_x(9.0, (2.0, 0.5), Some(normal), Medium::new(0.0, 1.0, 0.0).unwrap()).unwrap();
+        let scene = along_x(9.0, (2.0, 0.5), Some(normal), Medium::new(0.0, 1.0, 0.0).unwrap());
+        let scene = scene.and_then(|case| case.scene()).unwrap();
         assert!(scene.cosine(5.0) < 1e-6);
         assert!((scene.cosine(4.9) > 0.0) != (scene.cosine(5.1) > 0.0));
     }

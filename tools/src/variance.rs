@@ -9,8 +9,8 @@ use self::source::Source;
 use crate::arguments::{self, Json};
 use crate::progress::Part;
 use crate::{output, progress};
-use airlight::{Medium, Precision, Strategy};
-use airlight_tools::contender::Contender;
+use airlight::{Medium, Precision};
+use airlight_tools::contender::{Contender, PRODUCTS};
 use anyhow::{Result, ensure};
 use rayon::prelude::*;
 
@@ -22,7 +22,7 @@ const CLIMBS: usize = 256;
 /// Compare the relative variances of all densities, by quadrature, on a set of scenes
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// Scenes: broad, tame, canonical, or the rays of a wavefront
+    /// Scenes: broad, generic, dense, tame, canonical, or the rays of a wavefront
     #[arg(long, value_name = "NAME|FILE.npz", default_value = "broad", conflicts_with = "adversarial")]
     set: Source,
     /// Medium of the rays of a wavefront: absorption and scattering coefficient [1/m] and mean cosine
@@ -100,9 +100,4 @@ impl Args {
 
 fn names() -> String {
     Contender::all().into_iter().map(Contender::name).collect::<Vec<_>>().join(", ")
-}
-
-/// The product densities.
-fn products() -> Vec<Contender> {
-    [Strategy::Product3, Strategy::Product5, Strategy::Product9, Strategy::Product17].map(Contender::Strategy).into()
 }

@@ -1,6 +1,6 @@
 //! Everything that can be asked of airlight, on little stack.
 
-use airlight::{Backend, Emitter, Emitters, Media, Medium, Ray, Rays, Sampler, Samples, Strategy};
+use airlight::{Backend, Emitter, Emitters, Integral, Media, Medium, Nodes, Ray, Rays, Sampler, Samples, Strategy};
 
 /// The README's example is a test of the documentation.
 #[doc = include_str!("../../../README.md")]
@@ -117,9 +117,9 @@ pub fn everything(columns: &Columns, strategy: Strategy, backend: Backend) -> Re
         hash.add(&out);
         sampler.evaluate(&rays, &emitters, &media, &t, &mut out)?;
         hash.add(&out);
-        if strategy.has_radiance() {
+        for &nodes in Nodes::ALL {
             let mut out = vec![0.0; u.len() / per_ray];
-            sampler.radiance(&rays, &emitters, &media, &mut out)?;
+            Integral::new(nodes).with_backend(backend).radiance(&rays, &emitters, &media, &mut out)?;
             hash.add(&out);
         }
     }

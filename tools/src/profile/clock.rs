@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 const WARM_UP: Duration = Duration::from_micros(500);
 
 /// Does `work` at least once and until threads that slept while others were measured are awake.
-pub(super) fn warm_up(mut work: impl FnMut() -> Result<()>) -> Result<()> {
+pub(crate) fn warm_up(mut work: impl FnMut() -> Result<()>) -> Result<()> {
     let start = Instant::now();
     loop {
         work()?;
@@ -22,7 +22,7 @@ pub(super) fn warm_up(mut work: impl FnMut() -> Result<()>) -> Result<()> {
 ///
 /// Of one thread it is the time that it worked: what others do on the machine does not count. Of several it is the time
 /// that went by until the last was done.
-pub(super) fn nanoseconds<R>(work: impl FnOnce() -> R) -> (f64, R) {
+pub(crate) fn nanoseconds<R>(work: impl FnOnce() -> R) -> (f64, R) {
     let (worked, wall) = (ThreadTime::now(), Instant::now());
     let done = work();
     let alone = rayon::current_num_threads() == 1;

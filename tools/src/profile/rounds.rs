@@ -5,18 +5,18 @@ use serde::Serialize;
 
 /// Times of one contestant, a round each \[ns\].
 #[derive(Clone, Debug)]
-pub(super) struct Times(Vec<f64>);
+pub(crate) struct Times(Vec<f64>);
 
 /// The median of some figures, and between which they lie.
 #[derive(Clone, Copy, Debug, Serialize)]
-pub(super) struct Spread {
-    pub(super) median: f64,
-    pub(super) min: f64,
-    pub(super) max: f64,
+pub(crate) struct Spread {
+    pub(crate) median: f64,
+    pub(crate) min: f64,
+    pub(crate) max: f64,
 }
 
 /// Measures every contestant in every round; a first one, which warms up, does not count.
-pub(super) fn take_turns<C>(
+pub(crate) fn take_turns<C>(
     contestants: Vec<C>,
     rounds: usize,
     mut time: impl FnMut(&C) -> Result<f64>,
@@ -34,7 +34,7 @@ pub(super) fn take_turns<C>(
 }
 
 impl Times {
-    pub(super) fn spread(&self) -> Spread {
+    pub(crate) fn spread(&self) -> Spread {
         let mut ascending = self.0.clone();
         ascending.sort_by(f64::total_cmp);
         let n = ascending.len();

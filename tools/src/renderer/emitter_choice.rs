@@ -3,7 +3,7 @@
 use super::camera::RayQueue;
 use super::columns::places;
 use super::scene::Scene;
-use airlight::{Emitter, Emitters, Error, Media, Sampler, Strategy};
+use airlight::{Emitter, Emitters, Error, Integral, Media, Nodes};
 use rayon::prelude::*;
 use std::fmt;
 use std::str::FromStr;
@@ -21,7 +21,7 @@ const NEIGHBOURS: usize = 8;
 pub enum EmitterChoice {
     /// All with the same probability.
     Uniform,
-    /// In proportion to intensity times the estimate of the ray's radiance that product-3 has without a sample.
+    /// In proportion to intensity times the integral of the ray's radiance with four nodes.
     #[default]
     Radiance,
 }
@@ -55,7 +55,7 @@ impl FromStr for EmitterChoice {
 #[derive(Debug)]
 pub struct Choice {
     how: EmitterChoice,
-    estimator: Sampler,
+    integral: Integral,
     guides: RayQueue,
     /// For every light, what it is expected to add to each of the guides.
     estimates: Vec<Vec<f32>>,
@@ -73,7 +73,7 @@ impl Choice {
     pub fn new(how: EmitterChoice) -> Self {
         Self {
             how,
-            estimator: Sampler::new(Strategy::Product3),
+            integral: Integral::new(Nodes::Four),
             guides: RayQueue::default(),
             estimates: Vec::new(),
             light: Vec::new(),
@@ -95,7 +95,7 @@ impl Choice {
             for (light, estimate) in scene.lights.iter().zip(&mut self.estimates) {
                 estimate.resize(self.guides.len(), 0.0);
                 let emitter = Emitters::one(light.emitter);
-                self.estimator.radiance(&self.guides.rays(), &emitter, &Media::one(scene.medium), estimate)?;
+                self.integral.radiance(&self.guides.rays(), &emitter, &Media::one(scene.medium), estimate)?;
                 let brightness = light.intensity.element_sum();
                 estimate.iter_mut().for_each(|estimate| *estimate *= brightness);
             }

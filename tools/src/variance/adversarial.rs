@@ -1,6 +1,6 @@
 //! The search for the scenes on which the product densities do worst.
 
-use super::{Args, CLIMBS, products};
+use super::{Args, CLIMBS, PRODUCTS};
 use crate::progress;
 use airlight::Precision;
 use airlight_tools::adversary::{Worst, climb};
@@ -32,7 +32,7 @@ struct Row {
 
 /// Climbs from random scenes, as many as asked for.
 pub(super) fn search(args: &Args) -> Result<Worsts> {
-    let contenders = args.contenders(products());
+    let contenders = args.contenders(PRODUCTS.map(Contender::Strategy).into());
     let climbs = args.scenes.unwrap_or(CLIMBS);
     let progress = progress::bar(climbs.saturating_mul(contenders.len() * LARGEST_G.len()))?;
     let mut rows = Vec::new();

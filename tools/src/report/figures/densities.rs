@@ -7,6 +7,7 @@ use crate::report::palette;
 use crate::report::scale::Scale;
 use airlight::oracle::Scene;
 use airlight::{Emitter, Medium, Ray, Strategy};
+use airlight_tools::contender::PRODUCTS;
 use anyhow::{Context, Result};
 use glam::Vec3;
 
@@ -48,12 +49,11 @@ pub(super) fn figure() -> Result<Figure> {
     let drawings = EXAMPLES.iter().map(drawing).collect::<Result<Vec<_>>>()?;
     let last = EXAMPLES[EXAMPLES.len() - 1].scene()?;
     let variance = |strategy| last.relative_variance(strategy).unwrap_or(f64::NAN);
-    let products: Vec<Strategy> = Strategy::ALL.iter().copied().filter(|strategy| strategy.has_radiance()).collect();
-    let others = Strategy::ALL.iter().copied().filter(|strategy| !strategy.has_radiance());
+    let others = Strategy::ALL.iter().copied().filter(|strategy| !PRODUCTS.contains(strategy));
     let least = |strategies: &mut dyn Iterator<Item = Strategy>| {
         strategies.min_by(|&a, &b| variance(a).total_cmp(&variance(b)))
     };
-    let told = least(&mut others.into_iter()).zip(products.first()).map_or(String::new(), |(other, &product)| {
+    let told = least(&mut others.into_iter()).zip(PRODUCTS.first()).map_or(String::new(), |(other, &product)| {
         format!(
             "In the last scene the best of the others, {other}, has a relative variance of {:.2}, and {product} one of {:.3}. ",
             variance(other),
