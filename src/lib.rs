@@ -91,6 +91,6 @@ pub use precision::{Precision, UnknownPrecision};
 #[doc(hidden)]
 pub use road::stages::Stage;
 pub use sampler::{Sample, Sampler};
-pub use scene::{Emitter, FARTHEST, Medium, Ray, UNIT_TOLERANCE};
+pub use scene::{Cone, Emitter, FARTHEST, Medium, Ray, UNIT_TOLERANCE};
 pub use simd::Backend;
 pub use strategy::{Strategy, UnknownStrategy};

@@ -1,6 +1,6 @@
 //! What a kernel cannot be faster than: the operations it needs, and how many of them a core does.
 
-use crate::batch::{Emitters, Inputs, Media, OfSamples, Outputs, Rays, Samples};
+use crate::batch::{Emitters, Media, OfSamples, Outputs, Rays, Samples};
 use crate::road::{self, Task};
 use crate::simd::counting::Counting;
 use crate::simd::{Backend, Isa, Kernel, Lanes, Machine, Number};
@@ -46,7 +46,7 @@ impl Sampler {
         u: &[f32],
         samples: &mut Samples<'_>,
     ) -> Result<Operations, Error> {
-        let inputs = Inputs::new(rays, emitters, media)?.with(u, "u")?;
+        let inputs = self.inputs(rays, emitters, media)?.with(u, "u")?;
         inputs.check_given("samples.t", samples.t)?;
         inputs.check_given("samples.pdf", samples.pdf)?;
         let mut needed = Operations::default();

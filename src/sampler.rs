@@ -71,6 +71,17 @@ impl Sampler {
         Method { strategy: self.strategy, precision: self.precision }
     }
 
+    /// The columns of a call.
+    pub(crate) fn inputs<'a>(
+        &self,
+        rays: &Rays<'a>,
+        emitters: &Emitters<'a>,
+        media: &Media<'a>,
+    ) -> Result<Inputs<'a>, Error> {
+        check_known(self.strategy, emitters, media)?;
+        Inputs::new(rays, emitters, media)
+    }
+
     /// Its density.
     #[must_use]
     pub fn strategy(&self) -> Strategy {
@@ -102,7 +113,8 @@ impl Sampler {
     ///
     /// # Errors
     /// [`Error::Length`] if a column has another length than `rays.origin[0]`, or `u` one that is no multiple of it, or
-    /// an output another one than `u`. Nothing is written then.
+    /// an output another one than `u`. [`Error::Unavailable`] for spots and coloured media, which have no kernel yet. Nothing
+    /// is written then.
     pub fn sample(
         &self,
         rays: &Rays<'_>,
@@ -111,7 +123,7 @@ impl Sampler {
         u: &[f32],
         samples: &mut Samples<'_>,
     ) -> Result<Counts, Error> {
-        let inputs = Inputs::new(rays, emitters, media)?.with(u, "u")?;
+        let inputs = self.inputs(rays, emitters, media)?.with(u, "u")?;
         inputs.check_given("samples.t", samples.t)?;
         inputs.check_given("samples.pdf", samples.pdf)?;
         if let Some(weight) = &samples.weight {
@@ -161,7 +173,7 @@ impl Sampler {
         if !self.strategy.has_radiance() {
             return Err(Error::Unavailable { field: "radiance", strategy: self.strategy });
         }
-        let inputs = Inputs::new(rays, emitters, media)?;
+        let inputs = self.inputs(rays, emitters, media)?;
         inputs.check("radiance", radiance)?;
         Ok(road::travel::<road::Radiance>(self.backend, self.method(), &inputs, radiance))
     }
@@ -198,7 +210,7 @@ impl Sampler {
         t: &[f32],
         pdf: &mut [f32],
     ) -> Result<Counts, Error> {
-        let inputs = Inputs::new(rays, emitters, media)?.with(t, "t")?;
+        let inputs = self.inputs(rays, emitters, media)?.with(t, "t")?;
         inputs.check_given("pdf", pdf)?;
         Ok(road::travel::<road::Pdf>(self.backend, self.method(), &inputs, pdf))
     }
@@ -217,7 +229,7 @@ impl Sampler {
         t: &[f32],
         integrand: &mut [f32],
     ) -> Result<Counts, Error> {
-        let inputs = Inputs::new(rays, emitters, media)?.with(t, "t")?;
+        let inputs = self.inputs(rays, emitters, media)?.with(t, "t")?;
         inputs.check_given("integrand", integrand)?;
         Ok(road::travel::<road::Evaluate>(self.backend, self.method(), &inputs, integrand))
     }
@@ -236,12 +248,13 @@ impl Sampler {
         media: &Media<'_>,
         u: &[f32],
     ) -> Result<(), Error> {
-        let inputs = Inputs::new(rays, emitters, media)?.with(u, "u")?;
+        let inputs = self.inputs(rays, emitters, media)?.with(u, "u")?;
         road::travel::<road::stages::UpTo>(self.backend, self.method(), &inputs, stage);
         Ok(())
     }
 
-    /// [`sample`](Self::sample) for one ray; `None` if it has no sample, or `u` is not in `[0, 1]`.
+    /// [`sample`](Self::sample) for one ray; `None` if it has no sample, or `u` is not in `[0, 1]`, or `sample` has no kernel
+    /// for the emitter or the medium.
     #[must_use]
     pub fn sample_one(&self, ray: &Ray, emitter: &Emitter, medium: &Medium, u: f32) -> Option<Sample> {
         let [mut t, mut pdf, mut weight, mut r] = [0.0; 4];
@@ -255,7 +268,7 @@ impl Sampler {
         (counts.sampled == 1).then_some(Sample { t, pdf, weight, r })
     }
 
-    /// [`pdf`](Self::pdf) for one ray.
+    /// [`pdf`](Self::pdf) for one ray; 0 if there is no kernel for the emitter or the medium.
     #[must_use]
     pub fn pdf_one(&self, ray: &Ray, emitter: &Emitter, medium: &Medium, t: f32) -> f32 {
         let mut pdf = 0.0;
@@ -263,12 +276,22 @@ impl Sampler {
         pdf
     }
 
-    /// [`evaluate`](Self::evaluate) for one ray.
+    /// [`evaluate`](Self::evaluate) for one ray; 0 if there is no kernel for the emitter or the medium.
     #[must_use]
     pub fn evaluate_one(&self, ray: &Ray, emitter: &Emitter, medium: &Medium, t: f32) -> f32 {
         let mut integrand = 0.0;
         one::<road::Evaluate>(self.backend, self.method(), ray, emitter, medium, t, from_mut(&mut integrand));
         integrand
+    }
+}
+
+/// `Ok` unless there is a spot or a coloured medium: the kernels know neither.
+fn check_known(strategy: Strategy, emitters: &Emitters<'_>, media: &Media<'_>) -> Result<(), Error> {
+    let unavailable = |field| Err(Error::Unavailable { field, strategy });
+    match (emitters, media) {
+        (Emitters::One(emitter), _) if emitter.cone().is_some() => unavailable("spots"),
+        (_, Media::One(medium)) if medium.channels() > 1 => unavailable("coloured media"),
+        _ => Ok(()),
     }
 }
 
@@ -282,6 +305,9 @@ fn one<T: road::Task>(
     given: f32,
     out: road::Out<'_, T>,
 ) -> Counts {
+    if check_known(method.strategy, &Emitters::One(*emitter), &Media::One(*medium)).is_err() {
+        return Counts::default();
+    }
     let (origin, direction) = (ray.origin().to_array(), ray.direction().to_array());
     let (t_min, t_max) = (ray.t_min(), ray.t_max());
     let rays = Rays {

@@ -7,7 +7,7 @@
 //! | `PointNormal` | `N` | `theta` | the lit part |
 //! | `TaylorTransmittance` | `N P(min(theta, theta_c))`, `P` the polynomial (4)-(10) for `mu_t h` up to 32 | `theta` | the lit part |
 //! | `TaylorPhase` | `N P(min(s theta, theta_c))`, `P` the polynomial (13)-(19) for `abs(g)`, `s` the sign of `g` | `theta` | the lit part |
-//! | `Product3` to `Product17` | `T rho N dtheta/dv` at the knots, linear between them, `rho` for `abs(g)` up to the f32 next below 1 | `v` of the half angle | the lit part |
+//! | `Product3` to `Product17` | `T rho N S dtheta/dv` at the knots, linear between them, `rho` for `abs(g)` up to the f32 next below 1 | `v` of the half angle | the lit part |
 
 use super::angular::{Angular, Shape, Taylor};
 use super::arc::Arc;

@@ -14,6 +14,7 @@
 //! | `r` | `sqrt(h^2 + t'^2)`, the distance from `x(t)` to `y` \[m\] |
 //! | `theta` | `atan(t'/h)`, the angle at the emitter from the perpendicular \[rad\] |
 //! | `N` | `max(0, n.(x(t) - y)/r) = max(0, alpha cos theta + beta sin theta)`; 1 without a normal |
+//! | `S` | the falloff of a spot between the cones, by the cosine of `phi`, the angle to its axis; 1 for other emitters |
 //! | `T` | `exp(-mu_t (t - t_min + r))`, the transmittance from the emitter to the start of the medium |
 //! | `rho` | the phase function of Henyey and Greenstein \[1/sr\] |
 
@@ -21,6 +22,7 @@ mod angular;
 #[cfg(test)]
 mod arbitrary;
 mod arc;
+mod cone;
 mod density;
 mod distance;
 pub mod paper;

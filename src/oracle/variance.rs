@@ -58,9 +58,11 @@ impl Scene {
         let integrand = |place: &Place| {
             // relative to the start of the lit part
             let transmittance = (-self.mu_t * warp.y(place.at)).exp();
-            transmittance * phase(self.g, &arc, place.angle) * arc.cosine(place.angle)
+            transmittance * phase(self.g, &arc, place.angle) * arc.cosine(place.angle) * arc.falloff(place.angle)
         };
-        let mut ends: Vec<f64> = product.knots().chain(kinks.iter().map(|&t| warp.at(t).v)).collect();
+        let of_falloff = arc.kinks().into_iter().map(|kink| arc.t(kink));
+        let kinks = kinks.iter().copied().chain(of_falloff).map(|t| warp.at(t).v);
+        let mut ends: Vec<f64> = product.knots().chain(kinks).collect();
         ends.extend([1e-6, 1e-4, 1e-2].into_iter().flat_map(|v| [v, 1.0 - v]));
         ends.sort_by(f64::total_cmp);
         let integral = |of: &dyn Fn(&Place) -> f64| {
