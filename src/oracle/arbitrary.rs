@@ -36,7 +36,12 @@ enum Shine {
     Normal(Vec3),
     /// Towards the ray, so many times `h` from the foot, and by so much beside it; by the sine of half of the outer angle
     /// and the share of the inner cone.
-    Spot { along: f32, beside: Vec3, sine_half: f32, inner: f32 },
+    Spot {
+        along: f32,
+        beside: Vec3,
+        sine_half: f32,
+        inner: f32,
+    },
 }
 
 fn shine() -> impl Strategy<Value = Shine> {

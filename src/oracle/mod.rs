@@ -1,8 +1,8 @@
 //! The truth, in f64: one ray at a time, plain and slow, to test the sampler against.
 //!
 //! Nothing here is shared with the kernels but the types that go in. [`Scene`] has the integrand and its integral by
-//! quadrature, and each [`Strategy`](crate::Strategy)'s density, distribution, inverse and variance; [`paper`] the
-//! published equations; [`quadrature`] the integrals.
+//! quadrature, and each [`Strategy`](crate::Strategy)'s density, distribution, inverse and variance, [`Coloured`] the same
+//! for media of several channels; [`paper`] the published equations; [`quadrature`] the integrals.
 //!
 //! The symbols, with `x(t)` the point of the ray at `t` and `y` the emitter:
 //!
@@ -22,6 +22,7 @@ mod angular;
 #[cfg(test)]
 mod arbitrary;
 mod arc;
+mod coloured;
 mod cone;
 mod density;
 mod distance;
@@ -33,4 +34,5 @@ mod twofold;
 mod variance;
 mod warp;
 
+pub use coloured::Coloured;
 pub use scene::Scene;

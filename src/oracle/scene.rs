@@ -96,6 +96,16 @@ impl Scene {
         Self { h, t_h, emission, arc: emission.lit(h, t_h, (self.t_min, self.t_max)), ..*self }
     }
 
+    /// The same scene with another medium.
+    pub(super) fn with_medium(&self, medium: &Medium) -> Self {
+        let [mu_s, mu_t, g] = [medium.mu_s(), medium.mu_t(), medium.g()].map(f64::from);
+        Self { mu_s, mu_t, g, ..*self }
+    }
+
+    pub(super) fn scatters(&self) -> bool {
+        self.mu_s > 0.0
+    }
+
     fn normal(&self) -> Option<Normal> {
         if let Emission::Normal(normal) = self.emission { Some(normal) } else { None }
     }
