@@ -179,7 +179,9 @@ fn roots(a: f64, b: f64, c: f64, root: f64) -> [f64; 2] {
 /// How far an edge of the sector is beyond the end of the line that has the cosine `beta >= 0` with the axis \[rad\]: the edge
 /// is at an angle of `atan2(sine, c)` from the axis, `square = beta^2 - c^2`.
 fn beyond(alpha: f64, beta: f64, c: f64, sine: f64, square: f64) -> f64 {
-    let across = if alpha > 0.0 {
+    let across = if square == 0.0 {
+        0.0
+    } else if alpha > 0.0 {
         square * (alpha * alpha + beta * beta) / (alpha * c + beta * sine)
     } else {
         beta * sine - alpha * c
