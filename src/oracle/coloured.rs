@@ -89,3 +89,71 @@ impl Coloured {
         Sampled::new(&self.mean, strategy, &mu_t)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::arbitrary::{config, scene, uniform};
+    use super::super::product::Product;
+    use super::super::quadrature::integrate_pieces;
+    use super::*;
+    use proptest::{prop_assert, proptest};
+
+    /// The ratios of three channels' `mu_t` to one of them, and which of them scatter.
+    fn colour() -> impl proptest::strategy::Strategy<Value = [(f64, bool); 3]> {
+        use proptest::strategy::Strategy as _;
+        let channel = || ((-1f64..1.0).prop_map(|x| 10f64.powf(x)), proptest::bool::weighted(0.8));
+        [channel(), channel(), channel()]
+    }
+
+    fn coloured(scene: &Scene, colour: [(f64, bool); 3]) -> Coloured {
+        let channels = colour.map(|(ratio, scatters)| {
+            let mu_t = (ratio * scene.mu_t()) as f32;
+            Medium::new(if scatters { 0.0 } else { mu_t }, if scatters { mu_t } else { 0.0 }, scene.g as f32).unwrap()
+        });
+        let [mu_a, mu_s] = [Medium::mu_a, Medium::mu_s].map(|of| channels.each_ref().map(of));
+        let medium = Medium::coloured(mu_a, mu_s, scene.g as f32).unwrap();
+        Coloured {
+            mean: scene.with_medium(&medium.mean()),
+            channels: channels.map(|channel| scene.with_medium(&channel)).to_vec(),
+        }
+    }
+
+    proptest! {
+        #![proptest_config(config(256))]
+
+        #[test]
+        fn a_product_density_is_the_mean_of_those_of_the_channels(scene in scene(), colour in colour(), u in uniform()) {
+            let coloured = coloured(&scene, colour);
+            let Some(arc) = coloured.mean.arc else { return Ok(()) };
+            let t = coloured.invert(Strategy::Product5, u);
+            let of_channel = |channel: &Scene| Product::mixture(&coloured.mean, &[channel.mu_t], arc, 5).cdf(t);
+            let none_scatters = colour.iter().all(|&(_, scatters)| !scatters);
+            let taking_part = coloured.channels.iter().filter(|channel| none_scatters || channel.scatters());
+            let cdfs: Vec<f64> = taking_part.map(of_channel).collect();
+            let mean = cdfs.iter().sum::<f64>() / cdfs.len() as f64;
+            let cdf = coloured.cdf(Strategy::Product5, t);
+            prop_assert!(u == 0.0 || u == 1.0 || (cdf - mean).abs() <= 1e-12, "{cdf} is not the mean of {cdfs:?}");
+        }
+
+        #[test]
+        fn the_inverse_inverts_and_the_density_is_the_slope(scene in scene(), colour in colour(), u in uniform()) {
+            let coloured = coloured(&scene, colour);
+            if scene.lit().is_none() {
+                return Ok(());
+            }
+            for &strategy in Strategy::ALL {
+                let (t0, t1) = (coloured.invert(strategy, 0.5 * u), coloured.invert(strategy, u));
+                let rounding = 4.0 * f64::EPSILON * t1.max((t1 - scene.t_h).abs()) * coloured.pdf(strategy, t1)
+                    + 4.0 * f64::EPSILON * t0.max((t0 - scene.t_h).abs()) * coloured.pdf(strategy, t0);
+                let error = (coloured.cdf(strategy, t1) - u).abs();
+                prop_assert!(error <= 1e-12 + rounding, "{strategy}: {error:e} at u = {u}");
+                let mut ends = coloured.sampled(strategy).unwrap().density.kinks();
+                ends.retain(|t| (t0..t1).contains(t));
+                ends.extend([t0, 0.5 * (t0 + t1), t1]);
+                ends.sort_by(f64::total_cmp);
+                let mass = integrate_pieces(|t| coloured.pdf(strategy, t), &ends, 1e-13);
+                prop_assert!((mass - 0.5 * u).abs() <= 1e-10 + rounding, "{strategy}: {mass} is not {}", 0.5 * u);
+            }
+        }
+    }
+}

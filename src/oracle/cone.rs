@@ -25,7 +25,7 @@ pub(super) struct Cone {
     rho: f64,
     /// `cos_inner - cos_outer`.
     fall: f64,
-    /// The angle from an edge to where the intensity is full, if it is anywhere \[rad\].
+    /// The angle from an edge to where the intensity is full, if it is anywhere and the edge is not hard \[rad\].
     penumbra: Option<f64>,
 }
 
@@ -93,7 +93,7 @@ impl Cone {
                 Edge::At(from_origin[side], from_foot[side])
             }
         };
-        let full = c_inner < rho;
+        let full = c < c_inner && c_inner < rho;
         let penumbra = full.then(|| sine.atan2(c) - ((rho - c_inner) * (rho + c_inner)).sqrt().atan2(c_inner));
         Some(Self {
             lower: edge(square >= 0.0 && q <= 0.0, 0),
@@ -159,7 +159,7 @@ impl Cone {
         if s < 1.0 { s * s * (3.0 - 2.0 * s) } else { 1.0 }
     }
 
-    /// The angle from an edge to where the intensity is full, if it is anywhere \[rad\].
+    /// The angle from an edge to where the intensity is full, if it is anywhere and the edge is not hard \[rad\].
     pub(super) fn penumbra(&self) -> Option<f64> {
         self.penumbra
     }
