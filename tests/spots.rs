@@ -329,22 +329,22 @@ fn mean_variances(cosines: impl Fn(&mut Random) -> [f32; 2]) -> [f64; 3] {
     sums.map(|sum| sum / SCENES as f64)
 }
 
-/// Figures of an earlier prototype; its cones were of the same angles, on other rays of such a box.
+/// Figures that were measured before, on other rays of such a box.
 #[test]
-fn product_densities_leave_the_variance_that_was_derived() {
+fn product_densities_leave_the_variance_that_is_expected() {
     println!("seed {SEED}; mean V of product-5, product-9, equi-angular");
-    let derived = [
+    let expected = [
         (45.0, [0.014, 0.0012, 1.1]),
         (30.0, [0.015, 0.0016, 0.93]),
         (15.0, [0.015, 0.0023, 0.67]),
         (5.0, [0.018, 0.0041, 0.42]),
     ];
-    for (half_angle, derived) in derived {
+    for (half_angle, expected) in expected {
         let outer = cos_degrees(half_angle);
         let means = mean_variances(|_| [outer, 0.5 + 0.5 * outer]);
-        println!("{half_angle} degrees: {means:.4?}, derived {derived:?}");
-        for (mean, derived) in means.into_iter().zip(derived) {
-            assert!((mean - derived).abs() <= 0.3 * derived, "{half_angle} degrees: {mean} is not {derived}");
+        println!("{half_angle} degrees: {means:.4?}, expected {expected:?}");
+        for (mean, expected) in means.into_iter().zip(expected) {
+            assert!((mean - expected).abs() <= 0.3 * expected, "{half_angle} degrees: {mean} is not {expected}");
         }
     }
 }
