@@ -82,10 +82,13 @@ fn spot(random: &mut impl FnMut() -> f64) -> (Ray, Emitter) {
     let half_angle = [0.1, 1.0, 10.0, 90.0][(4.0 * random()) as usize] * random().max(0.5);
     let outer = half_angle.to_radians().cos() as f32;
     let inner = outer + (1.0 - outer) * [0.0, 1.0, random() as f32][(3.0 * random()) as usize];
-    // any axis, one towards the ray, one with the ray along the side of the cone
+    // any axis, one towards the ray, one with the ray along the side of the cone, one with a cone that the ray hardly touches
     let toward = across + (8.0 * random() - 4.0) * direction;
     let along_side = direction * f64::from(outer) + across * f64::from((1.0 - outer * outer).max(0.0).sqrt());
-    let axis = [axis, toward + 1e-3 * axis, along_side][(3.0 * random()) as usize].normalize().as_vec3();
+    let (off_plane, in_plane) = (f64::from((1.0 - outer * outer).max(0.0).sqrt()), f64::from(outer));
+    let touching = toward.normalize() * in_plane + direction.cross(across) * off_plane * (1.0 - 1e-6 * random());
+    let axes = [axis, toward + 1e-3 * axis, along_side, touching];
+    let axis = axes[(4.0 * random()) as usize].normalize().as_vec3();
     let t_max = if random() < 0.5 { f32::INFINITY } else { (20.0 * random()) as f32 };
     let ray = Ray::new(Vec3::ZERO, direction.as_vec3(), 0.0, t_max).expect("a ray");
     (ray, Emitter::spot(position.as_vec3(), axis, outer, inner).expect("a spot"))
