@@ -22,7 +22,7 @@ pub use rays::Rays;
 pub(crate) use runs::{Run, Turn};
 pub(crate) use samples::OfSamples;
 pub use samples::Samples;
-pub(crate) use source::{Gathered, RowGroups, Rows};
+pub(crate) use source::{Entry, Gathered, RowGroups, Rows};
 
 use crate::simd::Isa;
 

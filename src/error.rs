@@ -27,13 +27,13 @@ pub enum Error {
         /// what was given for it.
         expected: usize,
     },
-    /// The strategy has no such thing.
+    /// There is no such thing.
     #[non_exhaustive]
     Unavailable {
         /// What was asked for, such as `fast precision`.
         field: &'static str,
-        /// The strategy.
-        strategy: Strategy,
+        /// The strategy that does not have it; `None` if none has.
+        strategy: Option<Strategy>,
     },
     /// A parameter is out of its range.
     #[non_exhaustive]
@@ -66,7 +66,10 @@ impl fmt::Display for Error {
             Self::Length { field, length, expected } => {
                 write!(f, "{field} has {length} elements, expected {expected}")
             }
-            Self::Unavailable { field, strategy } => write!(f, "the strategy {strategy} has no {field}"),
+            Self::Unavailable { field, strategy: Some(strategy) } => {
+                write!(f, "the strategy {strategy} has no {field}")
+            }
+            Self::Unavailable { field, strategy: None } => write!(f, "there are no kernels for {field}"),
             Self::Value { field, value, expected } => write!(f, "{field} is {value}, expected {expected}"),
         }
     }

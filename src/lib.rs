@@ -8,7 +8,7 @@
 //!
 //! | station | what it is |
 //! |---|---|
-//! | `scene` | [`Ray`], [`Emitter`], [`Medium`]: one of each, validated |
+//! | `scene` | [`Ray`], [`Emitter`] with the [`Cone`] of a spot, [`Medium`]: one of each, validated |
 //! | `batch` | [`Rays`], [`Emitters`], [`Media`], [`Samples`]: borrowed columns of many |
 //! | `geometry` | `h`, `t_h`, the lit interval and its ends, without cancellation: in f32, where that is not enough in f64 |
 //! | `expansion` | a factor of the integrand as a polynomial of the angle |
@@ -158,7 +158,7 @@ pub use precision::{Precision, UnknownPrecision};
 #[doc(hidden)]
 pub use road::stages::Stage;
 pub use sampler::{Sample, Sampler};
-pub use scene::{Emitter, FARTHEST, Medium, Ray, UNIT_TOLERANCE};
+pub use scene::{Cone, Emitter, FARTHEST, Medium, Ray, UNIT_TOLERANCE};
 pub use simd::Backend;
 pub use strategy::{Strategy, UnknownStrategy};
 pub use threads::Threads;

@@ -17,7 +17,7 @@ pub(crate) use evaluate::Evaluate;
 pub(crate) use radiance::{Quadrature, Radiance};
 pub(crate) use sample::Sample;
 
-use crate::batch::{Counts, Inputs, Outputs, Pads, Rays, first_values};
+use crate::batch::{Counts, Entry, Inputs, Outputs, Pads, Rays, first_values};
 use crate::density::Kind;
 use crate::scene::{Emitter, Medium, Ray};
 use crate::simd::{Backend, Isa, Kernel, MOST_LANES, Machine};
@@ -135,6 +135,9 @@ pub(crate) fn travel_one<T: Task>(
     given: &[f32],
     out: Out<'_, T>,
 ) -> Counts {
+    if !emitter.is_known() || !medium.is_known() {
+        return Counts::default();
+    }
     let (origin, direction, t_min, t_max) = (ray.origin(), ray.direction(), ray.t_min(), ray.t_max());
     let rays = Rays::new(
         [0, 1, 2].map(|k| from_ref(&origin[k])),

@@ -62,7 +62,7 @@ impl Sampler {
                 Precision::Exact => "exact precision",
                 Precision::Fast => "fast precision",
             };
-            Err(Error::Unavailable { field, strategy: self.strategy })
+            Err(Error::Unavailable { field, strategy: Some(self.strategy) })
         }
     }
 
@@ -124,7 +124,8 @@ impl Sampler {
     ///
     /// # Errors
     /// [`Error::Length`] if a column has another length than `rays.origin[0]`, or `u` one that is no multiple of it, or
-    /// an output another one than `u`. Nothing is written then.
+    /// an output another one than `u`. [`Error::Unavailable`] for spots and coloured media, which have no kernel yet. Nothing
+    /// is written then.
     pub fn sample(
         &self,
         rays: &Rays<'_>,
@@ -251,7 +252,8 @@ impl Sampler {
         Ok(())
     }
 
-    /// [`sample`](Self::sample) for one ray; `None` if it has no sample, or `u` is not in `[0, 1]`.
+    /// [`sample`](Self::sample) for one ray; `None` if it has no sample, or `u` is not in `[0, 1]`, or `sample` has no kernel
+    /// for the emitter or the medium.
     #[must_use]
     pub fn sample_one(&self, ray: &Ray, emitter: &Emitter, medium: &Medium, u: f32) -> Option<Sample> {
         let [mut t, mut pdf, mut weight, mut r] = [0.0; 4];
@@ -261,7 +263,7 @@ impl Sampler {
         (counts.sampled == 1).then_some(Sample { t, pdf, weight, r })
     }
 
-    /// [`pdf`](Self::pdf) for one ray.
+    /// [`pdf`](Self::pdf) for one ray; 0 if there is no kernel for the emitter or the medium.
     #[must_use]
     pub fn pdf_one(&self, ray: &Ray, emitter: &Emitter, medium: &Medium, t: f32) -> f32 {
         let mut pdf = 0.0;
@@ -277,7 +279,7 @@ impl Sampler {
         cdf
     }
 
-    /// [`evaluate`](Self::evaluate) for one ray.
+    /// [`evaluate`](Self::evaluate) for one ray; 0 if there is no kernel for the emitter or the medium.
     #[must_use]
     pub fn evaluate_one(&self, ray: &Ray, emitter: &Emitter, medium: &Medium, t: f32) -> f32 {
         let mut integrand = 0.0;

@@ -1,6 +1,12 @@
 //! One ray, one emitter, one medium: what a single-scattering integral is made of.
 
+mod colour;
+mod cone;
+
+pub use cone::Cone;
+
 use crate::Error;
+use colour::Colour;
 use glam::Vec3;
 
 /// Largest coordinate or distance that is resolved \[m\]. A finite or infinite `t_max` beyond it means this distance.
@@ -63,14 +69,17 @@ impl Ray {
     }
 }
 
-/// A point that lights the medium, with a normal (a point-normal emitter: a spot on a surface) or without one.
+/// A point that lights the medium: alike in all directions, as a piece of a surface with a normal (a point-normal emitter),
+/// or into a cone (a spot).
 ///
 /// With a normal the emitted radiant intensity is proportional to the cosine `N = max(0, normal.(x - position)/r)`;
-/// without one `N = 1`. Radiance, area and power are factors of the caller.
+/// without one `N = 1`. That of a spot is proportional to the falloff of its [`Cone`]. Radiance, area and power are factors
+/// of the caller.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Emitter {
     position: [f32; 3],
     normal: Option<[f32; 3]>,
+    cone: Option<Cone>,
 }
 
 impl Emitter {
@@ -81,7 +90,7 @@ impl Emitter {
     pub fn point(position: impl Into<[f32; 3]>) -> Result<Self, Error> {
         let position = position.into();
         check_position("position", position)?;
-        Ok(Self { position, normal: None })
+        Ok(Self { position, normal: None, cone: None })
     }
 
     /// A point of a surface with the unit normal `normal`; it shines to the side of its normal alone. Within the
@@ -94,7 +103,25 @@ impl Emitter {
         let (position, normal) = (position.into(), normal.into());
         check_position("position", position)?;
         check_unit("normal", normal)?;
-        Ok(Self { position, normal: Some(normal) })
+        Ok(Self { position, normal: Some(normal), cone: None })
+    }
+
+    /// A point that shines into the [`Cone`] around the unit vector `axis`, in full up to the angle whose cosine is
+    /// `cos_inner`, not at all beyond that of `cos_outer`, and smoothly in between. [There](Cone) stands how the spots of
+    /// Blender, glTF and pbrt are given this way.
+    ///
+    /// # Errors
+    /// [`Error::Value`] if a coordinate is NaN or larger than [`FARTHEST`] in size, if the length of the axis is not 1
+    /// within [`UNIT_TOLERANCE`] (its exact length does not matter), or unless `0 <= cos_outer <= cos_inner <= 1`.
+    pub fn spot(
+        position: impl Into<[f32; 3]>,
+        axis: impl Into<[f32; 3]>,
+        cos_outer: f32,
+        cos_inner: f32,
+    ) -> Result<Self, Error> {
+        let position = position.into();
+        check_position("position", position)?;
+        Ok(Self { position, normal: None, cone: Some(Cone::new(axis.into(), cos_outer, cos_inner)?) })
     }
 
     /// Where it is \[m\].
@@ -107,14 +134,25 @@ impl Emitter {
     pub fn normal(&self) -> Option<[f32; 3]> {
         self.normal
     }
+    /// Its cone, if it is a spot.
+    #[must_use]
+    pub fn cone(&self) -> Option<Cone> {
+        self.cone
+    }
 }
 
-/// A homogeneous medium with the Henyey-Greenstein phase function.
+/// A homogeneous medium with the Henyey-Greenstein phase function: grey, or with coefficients of its own for each channel of
+/// a colour.
+///
+/// `mu_a`, `mu_s` and `mu_t` of a coloured medium are those of the grey one that its densities are made for: the means over
+/// the channels that scatter. So a channel that does not scatter changes nothing for the others. If none scatters they are
+/// the means over all.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Medium {
     mu_a: f32,
     mu_s: f32,
     g: f32,
+    colour: Option<Colour>,
 }
 
 impl Medium {
@@ -132,22 +170,58 @@ impl Medium {
         Error::unless((0.0..=f32::MAX).contains(&mu_s), "mu_s", mu_s, EXTENT)?;
         Error::unless((mu_a + mu_s).is_finite(), "mu_t", mu_a + mu_s, EXTENT)?;
         Error::unless((-1.0..=1.0).contains(&g), "g", g, "-1 <= g <= 1")?;
-        Ok(Self { mu_a, mu_s, g })
+        Ok(Self { mu_a, mu_s, g, colour: None })
     }
 
-    /// Absorption coefficient \[1/m\].
+    /// A medium of 1, 3 or 4 channels, with `mu_a` and `mu_s` \[1/m\] of each and one mean cosine `g` \[1\]. Of one channel
+    /// it is that of [`new`](Self::new).
+    ///
+    /// # Errors
+    /// [`Error::Value`] if there are not 1, 3 or 4 channels, or where `new` has it, for any channel; also unless the means
+    /// of `mu_a` and `mu_s` have a finite sum.
+    pub fn coloured<const C: usize>(mu_a: [f32; C], mu_s: [f32; C], g: f32) -> Result<Self, Error> {
+        Error::unless(matches!(C, 1 | 3 | 4), "channels", C as f32, "1, 3 or 4")?;
+        for (mu_a, mu_s) in mu_a.into_iter().zip(mu_s) {
+            Self::new(mu_a, mu_s, g)?;
+        }
+        let colour = Colour::new(&mu_a, &mu_s);
+        let (mean_a, mean_s) = colour.mean();
+        let grey = Self::new(mean_a, mean_s, g)?;
+        Ok(Self { colour: (C > 1).then_some(colour), ..grey })
+    }
+
+    /// How many channels it has; 1 if it is grey.
+    #[must_use]
+    pub fn channels(&self) -> usize {
+        self.colour.map_or(1, |colour| colour.count())
+    }
+    /// The grey medium of channel `c`, if there is one: itself for `c = 0` if it is grey.
+    #[must_use]
+    pub fn channel(&self, c: usize) -> Option<Self> {
+        match &self.colour {
+            None => (c == 0).then_some(*self),
+            Some(colour) => colour.channel(c).map(|(mu_a, mu_s)| Self { mu_a, mu_s, g: self.g, colour: None }),
+        }
+    }
+    /// The grey medium whose coefficients are the means over the channels that scatter; itself if it is grey.
+    #[must_use]
+    pub fn mean(&self) -> Self {
+        Self { colour: None, ..*self }
+    }
+
+    /// Absorption coefficient \[1/m\]; of a coloured medium the mean.
     #[must_use]
     #[doc(alias = "sigma_a")]
     pub fn mu_a(&self) -> f32 {
         self.mu_a
     }
-    /// Scattering coefficient \[1/m\].
+    /// Scattering coefficient \[1/m\]; of a coloured medium the mean.
     #[must_use]
     #[doc(alias = "sigma_s")]
     pub fn mu_s(&self) -> f32 {
         self.mu_s
     }
-    /// Extinction coefficient `mu_a + mu_s` \[1/m\].
+    /// Extinction coefficient `mu_a + mu_s` \[1/m\]; of a coloured medium the sum of the means.
     #[must_use]
     #[doc(alias = "sigma_t")]
     pub fn mu_t(&self) -> f32 {

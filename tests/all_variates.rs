@@ -31,7 +31,7 @@ fn supremum(scene: &Scene, strategy: Strategy) -> f64 {
     let quantiles = (0..=4096).map(|i| (f64::from(i) / 4096.0).clamp(1e-7, 1.0 - 1e-7));
     quantiles
         .map(|u| {
-            let t = scene.invert(strategy, u);
+            let t = scene.draw(strategy, u);
             scene.integrand(t) / scene.pdf(strategy, t)
         })
         .fold(0.0, f64::max)

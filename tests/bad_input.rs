@@ -3,7 +3,9 @@
 
 mod scenes;
 
-use airlight::{Counts, Emitter, Error, FARTHEST, Medium, Ray, Sampler, Strategy, UNIT_TOLERANCE};
+use airlight::{
+    Counts, Emitter, Emitters, Error, FARTHEST, Integral, Media, Medium, Nodes, Ray, Sampler, Strategy, UNIT_TOLERANCE,
+};
 use glam::Vec3;
 use scenes::{Case, Columns, Drawn, Random, Row};
 
@@ -112,18 +114,27 @@ fn parameters_out_of_range_are_refused() {
             assert_refused(Ray::new(far, Vec3::X, 0.0, 1.0), "origin", value);
             assert_refused(Emitter::point(far), "position", value);
             assert_refused(Emitter::point_normal(far, Vec3::X), "position", value);
+            assert_refused(Emitter::spot(far, Vec3::X, 0.5, 0.6), "position", value);
         }
         for value in NO_NUMBER {
             let bent = with(Vec3::ZERO, k, value);
             assert_refused(Ray::new(Vec3::ZERO, bent, 0.0, 1.0), "direction", bent.length());
             assert_refused(Emitter::point_normal(Vec3::ZERO, bent), "normal", bent.length());
+            assert_refused(Emitter::spot(Vec3::ZERO, bent, 0.5, 0.6), "axis", bent.length());
         }
     }
     for length in [0.0, 1.0 - 1.01 * UNIT_TOLERANCE, 1.0 + 1.01 * UNIT_TOLERANCE, 2.0, 1e-30, 1e18] {
         let v = length * Vec3::Y;
         assert_refused(Ray::new(Vec3::ZERO, v, 0.0, 1.0), "direction", v.length());
         assert_refused(Emitter::point_normal(Vec3::ZERO, v), "normal", v.length());
+        assert_refused(Emitter::spot(Vec3::ZERO, v, 0.5, 0.6), "axis", v.length());
     }
+    let spot = |cos_outer: f32, cos_inner: f32| Emitter::spot(Vec3::ZERO, Vec3::X, cos_outer, cos_inner);
+    for cosine in NO_NUMBER.into_iter().chain([-f32::from_bits(1), -1.0, 1f32.next_up()]) {
+        assert_refused(spot(cosine, 1.0), "cos_outer", cosine);
+        assert_refused(spot(0.0, cosine), "cos_inner", cosine);
+    }
+    assert_refused(spot(0.5, 0.5f32.next_down()), "cos_inner", 0.5f32.next_down());
 
     let ray = |t_min: f32, t_max: f32| Ray::new(Vec3::ZERO, Vec3::X, t_min, t_max);
     for t_min in NO_NUMBER.into_iter().chain([-1.0, -f32::from_bits(1), too_far]) {
@@ -136,10 +147,20 @@ fn parameters_out_of_range_are_refused() {
     for mu in NO_NUMBER.into_iter().chain([-1.0, -f32::from_bits(1)]) {
         assert_refused(Medium::new(mu, 1.0, 0.0), "mu_a", mu);
         assert_refused(Medium::new(1.0, mu, 0.0), "mu_s", mu);
+        for c in 0..3 {
+            let with_mu = with(Vec3::ONE, c, mu).to_array();
+            assert_refused(Medium::coloured(with_mu, [1.0; 3], 0.0), "mu_a", mu);
+            assert_refused(Medium::coloured([1.0; 3], with_mu, 0.0), "mu_s", mu);
+        }
     }
+    assert_refused(Medium::coloured([], [], 0.0), "channels", 0.0);
+    assert_refused(Medium::coloured([1.0; 2], [1.0; 2], 0.0), "channels", 2.0);
+    assert_refused(Medium::coloured([1.0; 5], [1.0; 5], 0.0), "channels", 5.0);
+    assert_refused(Medium::coloured([0.0, 0.0, f32::MAX], [0.0, 1.0, f32::MAX], 0.0), "mu_t", f32::INFINITY);
     assert_refused(Medium::new(f32::MAX, f32::MAX, 0.0), "mu_t", f32::INFINITY);
     for g in NO_NUMBER.into_iter().chain([1f32.next_up(), -1f32.next_up(), 2.0]) {
         assert_refused(Medium::new(1.0, 1.0, g), "g", g);
+        assert_refused(Medium::coloured([1.0; 4], [1.0; 4], g), "g", g);
     }
 }
 
@@ -150,9 +171,52 @@ fn parameters_at_the_end_of_their_range_are_accepted() {
             Ray::new(Vec3::splat(-FARTHEST), length * Vec3::Y, t_min, t_max).unwrap();
         }
         Emitter::point_normal(Vec3::splat(FARTHEST), length * Vec3::Z).unwrap();
+        for (cos_outer, cos_inner) in [(0.0, 0.0), (0.0, 1.0), (-0.0, 0.5), (1.0, 1.0)] {
+            Emitter::spot(Vec3::splat(FARTHEST), length * Vec3::Z, cos_outer, cos_inner).unwrap();
+        }
     }
     for (mu_a, mu_s, g) in [(0.0, 0.0, -1.0), (f32::MAX, 0.0, 1.0), (-0.0, 0.5 * f32::MAX, -0.0)] {
         Medium::new(mu_a, mu_s, g).unwrap();
+        Medium::coloured([mu_a; 4], [mu_s; 4], g).unwrap();
+    }
+}
+
+/// Nothing takes a spot for a point, or a coloured medium for a grey one.
+#[test]
+fn spots_and_coloured_media_have_no_kernel() {
+    let columns = Columns::random(&mut Random::new(SEED), 9);
+    let spot = Emitter::spot(Vec3::ZERO, Vec3::X, 0.5, 0.6).unwrap();
+    let medium = Medium::coloured([0.1; 3], [0.2, 0.3, 0.4], 0.0).unwrap();
+    let index = [0; 9];
+    let (spots, coloured) = ([spot], [medium]);
+    let (grey, points) = (columns.media(0..9), columns.emitters(0..9));
+    let refused = [
+        ("spots", Emitters::one(spot), grey),
+        ("spots", Emitters::table(&spots, &index), grey),
+        ("coloured media", points, Media::one(medium)),
+        ("coloured media", points, Media::table(&coloured, &index)),
+    ];
+    for (&strategy, (field, emitters, media)) in Strategy::ALL.iter().flat_map(|s| refused.iter().map(move |r| (s, r)))
+    {
+        let (sampler, rays, expected) =
+            (Sampler::new(strategy), columns.rays(0..9), Err(format!("there are no kernels for {field}")));
+        let (mut drawn, mut out, u) = (Drawn::new(9), [f32::NAN; 9], columns.given());
+        assert_eq!(said(sampler.sample(&rays, emitters, media, u, &mut drawn.samples())), expected);
+        assert_eq!(said(sampler.pdf(&rays, emitters, media, u, &mut out)), expected);
+        assert_eq!(said(sampler.cdf(&rays, emitters, media, u, &mut out)), expected);
+        assert_eq!(said(sampler.evaluate(&rays, emitters, media, u, &mut out)), expected);
+        assert_eq!(said(Integral::new(Nodes::Eight).radiance(&rays, emitters, media, &mut out)), expected);
+        let written = [&drawn.t, &drawn.pdf, &drawn.weight, &drawn.r].map(|column| &column[..]).concat();
+        assert!(written.iter().chain(&out).all(|x| x.is_nan()));
+    }
+    let good = good();
+    for case in [Case { emitter: spot, ..good }, Case { medium, ..good }] {
+        let (Case { ray, emitter, medium }, sampler) = (case, Sampler::new(Strategy::Product5));
+        assert_eq!(sampler.sample_one(&ray, &emitter, &medium, 0.5), None);
+        assert_eq!(sampler.pdf_one(&ray, &emitter, &medium, 1.0), 0.0);
+        assert_eq!(sampler.cdf_one(&ray, &emitter, &medium, 1.0), 0.0);
+        assert_eq!(sampler.evaluate_one(&ray, &emitter, &medium, 1.0), 0.0);
+        assert_eq!(Integral::new(Nodes::Eight).radiance_one(&ray, &emitter, &medium), 0.0);
     }
 }
 

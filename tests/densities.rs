@@ -76,7 +76,7 @@ fn the_pdf_integrates_to_1() {
         let (scene, sampler) = (case.oracle(), Sampler::new(strategy));
         let variable = if strategy == Strategy::Transmittance { strategy } else { Strategy::EquiAngular };
         let density = |x: f64| {
-            let t = scene.invert(variable, x) as f32;
+            let t = scene.draw(variable, x) as f32;
             f64::from(sampler.pdf_one(&case.ray, &case.emitter, &case.medium, t)) / scene.pdf(variable, f64::from(t))
         };
         // A product density has kinks at its knots, which short pieces let the quadrature see.
@@ -147,7 +147,7 @@ fn sample_pdf_and_evaluate_agree_at_the_sample() {
         let mut columns = Columns::repeat(&case, variates(124));
         let drawn = columns.sample(&sampler);
         // Between steep knots a product density has the error of v: relative to its mean, not to itself.
-        let spread = scene.invert(strategy, 0.75) - scene.invert(strategy, 0.25);
+        let spread = scene.draw(strategy, 0.75) - scene.draw(strategy, 0.25);
         let vanishing = if PRODUCTS.contains(&strategy) { 1e-6 * 0.5 / spread } else { 0.0 };
         columns.0[Columns::GIVEN] = drawn.t.clone();
         let (pdf, integrand) = (columns.pdf(&sampler), columns.evaluate(&sampler));

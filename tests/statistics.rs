@@ -55,10 +55,10 @@ fn ends(scene: &Scene, strategy: Strategy) -> [f64; CELLS - 1] {
         let x = (i + 1) as f64 / CELLS as f64;
         match strategy {
             Strategy::Transmittance => {
-                let (start, end) = (scene.invert(strategy, 0.0), scene.invert(strategy, 0.999));
+                let (start, end) = (scene.draw(strategy, 0.0), scene.draw(strategy, 0.999));
                 start + (end - start) * (i + 1) as f64 / (CELLS - 1) as f64
             }
-            _ => scene.invert(Strategy::EquiAngular, x),
+            _ => scene.draw(Strategy::EquiAngular, x),
         }
     })
 }

@@ -67,6 +67,11 @@ impl Entry<6> for Emitter {
     ];
     const TABLE: &'static str = "emitters.table";
     const INDEX: &'static str = "emitters.index";
+    const UNKNOWN: &'static str = "spots";
+
+    fn is_known(&self) -> bool {
+        self.cone().is_none()
+    }
 
     #[inline]
     fn row(&self) -> [f32; 6] {

@@ -55,6 +55,11 @@ impl Entry<3> for Medium {
     const COLUMNS: [&'static str; 3] = ["media.mu_a", "media.mu_s", "media.g"];
     const TABLE: &'static str = "media.table";
     const INDEX: &'static str = "media.index";
+    const UNKNOWN: &'static str = "coloured media";
+
+    fn is_known(&self) -> bool {
+        self.channels() == 1
+    }
 
     #[inline]
     fn row(&self) -> [f32; 3] {

@@ -100,7 +100,7 @@ impl Angular {
     }
 
     /// Newton's method, or a bisection where it would leave what is known to hold the root.
-    pub(super) fn invert(&self, u: f64) -> f64 {
+    pub(super) fn draw(&self, u: f64) -> f64 {
         let start = self.arc.start();
         let target = u * self.total;
         let (mut low, mut high) = (0.0, self.arc.width());
@@ -218,7 +218,7 @@ mod tests {
             for taylor in [Taylor::transmittance(m), Taylor::phase(g)] {
                 let angular = Angular::new(arc, Shape::Taylor(taylor));
                 for u in [2f64.powi(-24), 0.1, 0.5, 0.9] {
-                    let t = angular.invert(u);
+                    let t = angular.draw(u);
                     let angle = arc.at(t);
                     let (a, at, b) = (angular.weight(arc.start()), angular.weight(angle), angular.weight(arc.end()));
                     let expected = angle.from_a * (a + at) / (arc.width() * (a + b));

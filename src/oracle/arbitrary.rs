@@ -29,20 +29,55 @@ fn reach() -> impl Strategy<Value = (f32, f32)> {
     (start, length)
 }
 
+/// How the emitter shines.
+#[derive(Clone, Copy, Debug)]
+enum Shine {
+    Even,
+    Normal(Vec3),
+    /// Towards the ray, so many times `h` from the foot, and by so much beside it; by the sine of half of the outer angle
+    /// and the share of the inner cone.
+    Spot {
+        along: f32,
+        beside: Vec3,
+        sine_half: f32,
+        inner: f32,
+    },
+}
+
+fn shine() -> impl Strategy<Value = Shine> {
+    let beside = (unit(), decades(-3.0..0.5)).prop_map(|(side, size)| side * size);
+    // half-angles from 0.1 to 90 degrees
+    let sine_half = decades(-3.06..-0.15051);
+    let inner = prop_oneof![Just(0f32), Just(1f32), 0f32..1.0];
+    let spot = (-4f32..4.0, beside, sine_half, inner);
+    prop_oneof![
+        1 => Just(Shine::Even),
+        1 => unit().prop_map(Shine::Normal),
+        2 => spot.prop_map(|(along, beside, sine_half, inner)| Shine::Spot { along, beside, sine_half, inner }),
+    ]
+}
+
 /// A scene with `h` from 0.1 mm to 100 m and `mu_t h` from 1e-4 to 100.
 pub(super) fn scene() -> impl Strategy<Value = Scene> {
     let place = (unit(), unit(), decades(-4.0..2.0), reach());
     let medium = (decades(-4.0..2.0), 0f32..=1.0, g());
-    (place, prop::option::of(unit()), medium).prop_filter_map("degenerate", |(place, normal, (m, albedo, g))| {
+    (place, shine(), medium).prop_filter_map("degenerate", |(place, shine, (m, albedo, g))| {
         let (d, side, h, (start, length)) = place;
         let foot_to_emitter = d.cross(side).try_normalize()? * h;
         let t_min = 0.5 * h;
         let position = d * (t_min - start * h) + foot_to_emitter;
         let ray = Ray::new(Vec3::ZERO, d, t_min, t_min + length * h).ok()?;
-        let emitter = match normal {
-            Some(n) => Emitter::point_normal(position, n).ok()?,
-            None => Emitter::point(position).ok()?,
-        };
+        let emitter = match shine {
+            Shine::Even => Emitter::point(position),
+            Shine::Normal(n) => Emitter::point_normal(position, n),
+            Shine::Spot { along, beside, sine_half, inner } => {
+                let axis = d * along + beside - foot_to_emitter / h;
+                let cos_outer = 1.0 - 2.0 * sine_half * sine_half;
+                let cos_inner = (cos_outer + inner * (1.0 - cos_outer)).min(1.0);
+                Emitter::spot(position, axis.try_normalize()?, cos_outer, cos_inner)
+            }
+        }
+        .ok()?;
         let mu_t = m / h;
         Some(Scene::new(&ray, &emitter, &Medium::new((1.0 - albedo) * mu_t, albedo * mu_t, g).ok()?))
     })

@@ -1,5 +1,6 @@
 //! The lit part of a ray as an arc of directions seen from the emitter.
 
+use super::cone::Cone;
 use std::f64::consts::FRAC_PI_2;
 
 /// `r N`, which is linear along the ray, of an emitter with a normal: `alpha h + beta t'`.
@@ -40,7 +41,16 @@ impl Angle {
     }
 }
 
-/// The part from `t_a` to `t_b` of a ray, where `N > 0` between the ends.
+/// The cone of a spot, and how far the ends of an arc are inside, as angles \[rad\].
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Spot {
+    cone: Cone,
+    /// From the lower edge of the cone to the start of the arc, and from the end of the arc to the upper edge.
+    before_a: f64,
+    after_b: f64,
+}
+
+/// The part from `t_a` to `t_b` of a ray, where `N > 0`, or which is inside the cone, between the ends.
 ///
 /// With `theta` come its complements `psi = pi/2 + theta` and `chi = pi/2 - theta`, the ray's angles with the line to
 /// the emitter: they, not `theta`, resolve the far ends of a long ray, where `theta` is nearly -pi/2 and pi/2.
@@ -59,6 +69,7 @@ pub(super) struct Arc {
     width: f64,
     /// `N` and `dN/dtheta` at both ends.
     cosines: Option<[(f64, f64); 2]>,
+    spot: Option<Spot>,
 }
 
 impl Arc {
@@ -79,17 +90,30 @@ impl Arc {
                 (t_b, b, height_b) = (horizon, from_foot, 0.0);
             }
         }
-        if t_a >= t_b {
-            return None;
-        }
         let (r_a, r_b) = (a.hypot(h), b.hypot(h));
         let cosines = normal.map(|n| {
             // dN/dtheta = beta cos theta - alpha sin theta
             let slope = |t_prime: f64, r: f64| (n.beta * h - n.alpha_h * (t_prime / h)) / r;
             [(height_a / r_a, slope(a, r_a)), (height_b / r_b, slope(b, r_b))]
         });
+        Self::between(h, t_h, [(t_a, a), (t_b, b)]).map(|arc| Self { cosines, ..arc })
+    }
+
+    /// The part of `[t_min, t_max]` inside a cone, if there is one.
+    pub(super) fn in_cone(h: f64, t_h: f64, (t_min, t_max): (f64, f64), cone: Cone) -> Option<Self> {
+        let ends @ [start, end] = cone.clip([(t_min, t_min - t_h), (t_max, t_max - t_h)]);
+        let spot = Spot { cone, before_a: cone.before(h, start), after_b: cone.after(h, end) };
+        Self::between(h, t_h, ends).map(|arc| Self { spot: Some(spot), ..arc })
+    }
+
+    /// That between two points, each given by its `t` and `t'` \[m\], if the second is behind the first: lit evenly.
+    fn between(h: f64, t_h: f64, [(t_a, a), (t_b, b)]: [(f64, f64); 2]) -> Option<Self> {
+        if t_a >= t_b {
+            return None;
+        }
         let width = subtended(h, length((t_a, a), (t_b, b)), a, b);
-        Some(Self { t_a, t_b, a, b, h, t_h, psi_a: h.atan2(-a), chi_b: h.atan2(b), width, cosines })
+        let (psi_a, chi_b) = (h.atan2(-a), h.atan2(b));
+        Some(Self { t_a, t_b, a, b, h, t_h, psi_a, chi_b, width, cosines: None, spot: None })
     }
 
     pub(super) fn start(&self) -> Angle {
@@ -170,6 +194,20 @@ impl Arc {
         n.max(0.0)
     }
 
+    /// The falloff `S`, or 1 if the emitter is no spot.
+    pub(super) fn falloff(&self, angle: Angle) -> f64 {
+        self.spot.map_or(1.0, |spot| spot.cone.falloff(spot.before_a + angle.from_a, angle.to_b + spot.after_b))
+    }
+
+    /// The directions of the arc where the falloff is not smooth, in their order.
+    pub(super) fn kinks(&self) -> Vec<Angle> {
+        let Some(Spot { cone, before_a, after_b }) = self.spot else { return vec![] };
+        let Some(penumbra) = cone.penumbra() else { return vec![] };
+        let (first, last) = (penumbra - before_a, penumbra - after_b);
+        let kinks = [self.after(first), Angle { from_a: self.width - last, to_b: last }];
+        kinks.into_iter().filter(|kink| 0.0 < kink.from_a && 0.0 < kink.to_b).collect()
+    }
+
     /// The integral of `N` over the directions from `lower` to `upper`: twice the sine of half the angle between them,
     /// times `N` in the middle.
     pub(super) fn integral_of_cosine(&self, lower: Angle, upper: Angle) -> f64 {
@@ -193,7 +231,7 @@ impl Arc {
 ///
 /// An end where `N = 0` next to an emitter has more digits of `t'` than of `t`. Of differences of `t`, one from the start and
 /// one to such an end, the sum would be another than that of `t'`, and the point in two places.
-fn length((t_0, t_prime_0): (f64, f64), (t_1, t_prime_1): (f64, f64)) -> f64 {
+pub(super) fn length((t_0, t_prime_0): (f64, f64), (t_1, t_prime_1): (f64, f64)) -> f64 {
     let near = t_prime_0.abs().max(t_prime_1.abs()) < t_0.abs().max(t_1.abs());
     if near { (t_prime_1 - t_prime_0).max(0.0) } else { t_1 - t_0 }
 }

@@ -7,10 +7,9 @@
 //! | `PointNormal` | `N` | `theta` | the lit part |
 //! | `TaylorTransmittance` | `N P(min(theta, theta_c))`, `P` the polynomial (4)-(10) for `mu_t h` up to 32 | `theta` | the lit part |
 //! | `TaylorPhase` | `N P(min(s theta, theta_c))`, `P` the polynomial (13)-(19) for `abs(g)`, `s` the sign of `g` | `theta` | the lit part |
-//! | `Product3` to `Product17` | `T rho N dtheta/dv` at the knots, linear between them, `rho` for `abs(g)` up to the f32 next below 1 | `v` of the half angle | the lit part |
+//! | `Product3` to `Product17` | `T rho N S dtheta/dv` at the knots, linear between them, `rho` for `abs(g)` up to the f32 next below 1 | `v` of the half angle | the lit part |
 
 use super::angular::{Angular, Shape, Taylor};
-use super::arc::Arc;
 use super::distance::Exponential;
 use super::product::Product;
 use super::scene::Scene;
@@ -34,75 +33,101 @@ impl Density {
     }
 }
 
-/// The density of a strategy, over distance. A scene without a [lit](Scene::lit) part has none: its pdf is 0, and its
-/// cdf and the inverse are NaN.
-impl Scene {
-    /// The probability of a distance of at most `t` \[m\].
-    #[must_use]
-    pub fn cdf(&self, strategy: Strategy, t: f64) -> f64 {
-        let Some((density, t_a, t_b)) = self.density(strategy) else { return f64::NAN };
-        if t <= t_a {
+/// A density on its interval, from `t_a` to `t_b` \[m\].
+pub(super) struct Sampled {
+    pub(super) density: Density,
+    t_a: f64,
+    t_b: f64,
+}
+
+impl Sampled {
+    /// The density of a strategy; the product densities are mixtures for several values of `mu_t` \[1/m\].
+    pub(super) fn new(scene: &Scene, strategy: Strategy, mu_t: &[f64]) -> Option<Self> {
+        let arc = scene.arc?;
+        let over_angle = |shape| Density::Angle(Angular::new(arc, shape));
+        let product = |knots| Density::HalfAngle(Product::mixture(scene, mu_t, arc, knots));
+        let density = match strategy {
+            Strategy::Transmittance => {
+                let density = Density::Distance(Exponential::new(scene.mu_t, scene.interval()));
+                return Some(Self { density, t_a: scene.t_min, t_b: scene.t_max });
+            }
+            Strategy::EquiAngular => over_angle(Shape::Uniform),
+            Strategy::PointNormal => over_angle(Shape::Cosine),
+            Strategy::TaylorTransmittance => over_angle(Shape::Taylor(Taylor::transmittance(scene.mu_t * scene.h))),
+            Strategy::TaylorPhase => over_angle(Shape::Taylor(Taylor::phase(scene.g))),
+            Strategy::Product3 => product(3),
+            Strategy::Product5 => product(5),
+            Strategy::Product9 => product(9),
+            Strategy::Product17 => product(17),
+        };
+        Some(Self { density, t_a: arc.t_a, t_b: arc.t_b })
+    }
+
+    pub(super) fn cdf(&self, t: f64) -> f64 {
+        if t <= self.t_a {
             return 0.0;
         }
-        if t >= t_b {
+        if t >= self.t_b {
             return 1.0;
         }
-        match density {
+        match &self.density {
             Density::Distance(exponential) => exponential.cdf(t),
             Density::Angle(angular) => angular.cdf(t),
             Density::HalfAngle(product) => product.cdf(t),
         }
     }
 
+    /// Over distance, in the scene that it is of.
+    pub(super) fn pdf(&self, scene: &Scene, t: f64) -> f64 {
+        if !(self.t_a..=self.t_b).contains(&t) {
+            return 0.0;
+        }
+        match &self.density {
+            Density::Distance(exponential) => exponential.pdf(t),
+            // dtheta/dt = h/r^2
+            Density::Angle(angular) => angular.pdf(t) * scene.h / scene.r(t).powi(2),
+            Density::HalfAngle(product) => product.pdf(t) * scene.h / scene.r(t).powi(2),
+        }
+    }
+
+    pub(super) fn draw(&self, u: f64) -> f64 {
+        if u <= 0.0 {
+            return self.t_a;
+        }
+        if u >= 1.0 {
+            return self.t_b;
+        }
+        match &self.density {
+            Density::Distance(exponential) => exponential.draw(u),
+            Density::Angle(angular) => angular.draw(u),
+            Density::HalfAngle(product) => product.draw(u),
+        }
+    }
+}
+
+/// The density of a strategy, over distance. A scene without a [lit](Scene::lit) part has none: its pdf is 0, and its
+/// cdf and the inverse are NaN.
+impl Scene {
+    /// The probability of a distance of at most `t` \[m\].
+    #[must_use]
+    pub fn cdf(&self, strategy: Strategy, t: f64) -> f64 {
+        self.sampled(strategy).map_or(f64::NAN, |sampled| sampled.cdf(t))
+    }
+
     /// The probability density at `t` \[m\], in 1/m; 0 outside the part that is sampled.
     #[must_use]
     pub fn pdf(&self, strategy: Strategy, t: f64) -> f64 {
-        match self.density(strategy) {
-            Some((density, t_a, t_b)) if (t_a..=t_b).contains(&t) => match density {
-                Density::Distance(exponential) => exponential.pdf(t),
-                // dtheta/dt = h/r^2
-                Density::Angle(angular) => angular.pdf(t) * self.h / self.r(t).powi(2),
-                Density::HalfAngle(product) => product.pdf(t) * self.h / self.r(t).powi(2),
-            },
-            _ => 0.0,
-        }
+        self.sampled(strategy).map_or(0.0, |sampled| sampled.pdf(self, t))
     }
 
     /// The distance \[m\] whose [`cdf`](Self::cdf) is `u`; the ends for `u` = 0 and 1.
     #[must_use]
-    pub fn invert(&self, strategy: Strategy, u: f64) -> f64 {
-        let Some((density, t_a, t_b)) = self.density(strategy) else { return f64::NAN };
-        if u <= 0.0 {
-            return t_a;
-        }
-        if u >= 1.0 {
-            return t_b;
-        }
-        match density {
-            Density::Distance(exponential) => exponential.invert(u),
-            Density::Angle(angular) => angular.invert(u),
-            Density::HalfAngle(product) => product.invert(u),
-        }
+    pub fn draw(&self, strategy: Strategy, u: f64) -> f64 {
+        self.sampled(strategy).map_or(f64::NAN, |sampled| sampled.draw(u))
     }
 
-    /// The density of a strategy and the interval \[m\] that it is one on.
-    pub(super) fn density(&self, strategy: Strategy) -> Option<(Density, f64, f64)> {
-        let arc = self.arc?;
-        let over_angle = |arc: Arc, shape| (Density::Angle(Angular::new(arc, shape)), arc.t_a, arc.t_b);
-        let product = |knots| (Density::HalfAngle(Product::new(self, arc, knots)), arc.t_a, arc.t_b);
-        Some(match strategy {
-            Strategy::Transmittance => {
-                (Density::Distance(Exponential::new(self.mu_t, self.interval())), self.t_min, self.t_max)
-            }
-            Strategy::EquiAngular => over_angle(arc, Shape::Uniform),
-            Strategy::PointNormal => over_angle(arc, Shape::Cosine),
-            Strategy::TaylorTransmittance => over_angle(arc, Shape::Taylor(Taylor::transmittance(self.mu_t * self.h))),
-            Strategy::TaylorPhase => over_angle(arc, Shape::Taylor(Taylor::phase(self.g))),
-            Strategy::Product3 => product(3),
-            Strategy::Product5 => product(5),
-            Strategy::Product9 => product(9),
-            Strategy::Product17 => product(17),
-        })
+    pub(super) fn sampled(&self, strategy: Strategy) -> Option<Sampled> {
+        Sampled::new(self, strategy, &[self.mu_t])
     }
 }
 
@@ -126,7 +151,7 @@ mod tests {
             for &strategy in Strategy::ALL {
                 let Some((t_a, t_b)) = scene.lit() else { continue };
                 for u in [u, 1.0 - u] {
-                    let t = scene.invert(strategy, u);
+                    let t = scene.draw(strategy, u);
                     let (first, last) = if strategy == Strategy::Transmittance { scene.interval() } else { (t_a, t_b) };
                     prop_assert!((first..=last).contains(&t), "{strategy}: {t}");
                     let error = (scene.cdf(strategy, t) - u).abs();
@@ -139,7 +164,7 @@ mod tests {
         fn outside_there_is_nothing(scene in scene()) {
             for &strategy in Strategy::ALL {
                 let Some(lit) = scene.lit() else {
-                    prop_assert!(scene.pdf(strategy, scene.t_min) == 0.0 && scene.invert(strategy, 0.5).is_nan());
+                    prop_assert!(scene.pdf(strategy, scene.t_min) == 0.0 && scene.draw(strategy, 0.5).is_nan());
                     continue;
                 };
                 let (first, last) = if strategy == Strategy::Transmittance { scene.interval() } else { lit };
@@ -147,7 +172,7 @@ mod tests {
                     prop_assert!(scene.pdf(strategy, t) == 0.0, "{strategy} at {t}");
                     prop_assert!(scene.cdf(strategy, t) == cdf, "{strategy} at {t}");
                 }
-                prop_assert!(scene.invert(strategy, 0.0) == first && scene.invert(strategy, 1.0) == last);
+                prop_assert!(scene.draw(strategy, 0.0) == first && scene.draw(strategy, 1.0) == last);
             }
         }
 
@@ -157,10 +182,10 @@ mod tests {
                 if scene.lit().is_none() {
                     continue;
                 }
-                let (t0, t1) = (scene.invert(strategy, u[0].min(u[1])), scene.invert(strategy, u[0].max(u[1])));
+                let (t0, t1) = (scene.draw(strategy, u[0].min(u[1])), scene.draw(strategy, u[0].max(u[1])));
                 let mut ends = vec![t0, 0.5 * (t0 + t1), t1];
                 // A kink within a sixteenth of the end of an interval escapes the quadrature.
-                let kinks = scene.density(strategy).unwrap().0.kinks();
+                let kinks = scene.sampled(strategy).unwrap().density.kinks();
                 ends.extend(kinks.into_iter().filter(|t| (t0..t1).contains(t)));
                 ends.sort_by(f64::total_cmp);
                 let mass = integrate_pieces(|t| scene.pdf(strategy, t), &ends, 1e-13);

@@ -21,7 +21,7 @@ impl Exponential {
         (-self.mu_t * (t - self.t_min)).exp() / self.absorbed(self.t_max)
     }
 
-    pub(super) fn invert(&self, u: f64) -> f64 {
+    pub(super) fn draw(&self, u: f64) -> f64 {
         let absorbed = u * self.absorbed(self.t_max);
         let length = if self.is_uniform() { absorbed } else { -(-self.mu_t * absorbed).ln_1p() / self.mu_t };
         (self.t_min + length).min(self.t_max)
@@ -50,7 +50,7 @@ mod tests {
             for value in [none.cdf(t), little.cdf(t)] {
                 assert!((value - u).abs() < 1e-13, "{value}");
             }
-            assert!((little.invert(u) - none.invert(u)).abs() < 1e-13);
+            assert!((little.draw(u) - none.draw(u)).abs() < 1e-13);
             assert!((little.pdf(t) - 1.0 / 3.0).abs() < 1e-13 && none.pdf(t) == 1.0 / 3.0);
         }
     }
@@ -59,7 +59,7 @@ mod tests {
     fn by_hand() {
         let half_life = std::f64::consts::LN_2;
         let density = Exponential::new(1.0, (1.0, 1e18));
-        assert!((density.invert(0.75) - (1.0 + 2.0 * half_life)).abs() < 1e-15);
+        assert!((density.draw(0.75) - (1.0 + 2.0 * half_life)).abs() < 1e-15);
         assert!((density.cdf(1.0 + half_life) - 0.5).abs() < 1e-15);
         assert!((density.pdf(1.0 + half_life) - 0.5).abs() < 1e-15);
     }
@@ -67,7 +67,7 @@ mod tests {
     #[test]
     fn no_distance_is_beyond_the_end() {
         for mu_t in (0..2000).map(|i| f64::from(i) * 1e-3) {
-            let t = Exponential::new(mu_t, (0.1, 1.7)).invert(1.0 - f64::EPSILON / 2.0);
+            let t = Exponential::new(mu_t, (0.1, 1.7)).draw(1.0 - f64::EPSILON / 2.0);
             assert!(t <= 1.7, "{t} at mu_t = {mu_t}");
         }
     }

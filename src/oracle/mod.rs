@@ -1,8 +1,8 @@
 //! The truth, in f64: one ray at a time, plain and slow, to test the sampler against.
 //!
 //! Nothing here is shared with the kernels but the types that go in. [`Scene`] has the integrand and its integral by
-//! quadrature, and each [`Strategy`](crate::Strategy)'s density, distribution, inverse and variance; [`paper`] the
-//! published equations; [`quadrature`] the integrals.
+//! quadrature, and each [`Strategy`](crate::Strategy)'s density, distribution, inverse and variance, [`Coloured`] the same
+//! for media of several channels; [`paper`] the published equations; [`quadrature`] the integrals.
 //!
 //! The symbols, with `x(t)` the point of the ray at `t` and `y` the emitter:
 //!
@@ -14,6 +14,7 @@
 //! | `r` | `sqrt(h^2 + t'^2)`, the distance from `x(t)` to `y` \[m\] |
 //! | `theta` | `atan(t'/h)`, the angle at the emitter from the perpendicular \[rad\] |
 //! | `N` | `max(0, n.(x(t) - y)/r) = max(0, alpha cos theta + beta sin theta)`; 1 without a normal |
+//! | `S` | the falloff of a spot between the cones, by the cosine of `phi`, the angle to its axis; 1 for other emitters |
 //! | `T` | `exp(-mu_t (t - t_min + r))`, the transmittance from the emitter to the start of the medium |
 //! | `rho` | the phase function of Henyey and Greenstein \[1/sr\] |
 
@@ -21,6 +22,8 @@ mod angular;
 #[cfg(test)]
 mod arbitrary;
 mod arc;
+mod coloured;
+mod cone;
 mod density;
 mod distance;
 pub mod paper;
@@ -31,4 +34,5 @@ mod twofold;
 mod variance;
 mod warp;
 
+pub use coloured::Coloured;
 pub use scene::Scene;

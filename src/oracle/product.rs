@@ -1,4 +1,4 @@
-//! The density nearly proportional to the whole integrand `T rho N`, linear between some knots of the variable `v` of
+//! The density nearly proportional to the whole integrand `T rho N S`, linear between some knots of the variable `v` of
 //! [`Warp`].
 
 use super::arc::Arc;
@@ -47,27 +47,33 @@ pub(super) struct Product {
 impl Product {
     /// The density with `count` knots.
     pub(super) fn new(scene: &Scene, arc: Arc, count: usize) -> Self {
+        Self::mixture(scene, &[scene.mu_t], arc, count)
+    }
+
+    /// The mixture in equal parts of the densities for several values of `mu_t` \[1/m\], all at the knots of the scene's own.
+    pub(super) fn mixture(scene: &Scene, mu_t: &[f64], arc: Arc, count: usize) -> Self {
         let g = scene.g.clamp(-chosen::LARGEST_G, chosen::LARGEST_G);
         let y_c = scale(&arc, scene.mu_t, g);
         let warp = Warp::new(arc, y_c);
         let at = knots(count);
-        let integrand = |at| {
-            // Relative to the start.
-            let transmittance = (-scene.mu_t * warp.y(at)).exp();
-            transmittance * over_v(&arc, &warp, g, at)
-        };
         let dark = dark(scene, &arc);
-        let mut f = lines(&at, dark, integrand);
-        let sum: f64 = f.iter().sum();
-        if !(sum > 0.0 && sum.is_finite()) {
-            f.fill(1.0);
+        let mut f = vec![0.0; count];
+        for &mu_t in mu_t {
+            let integrand = |at| {
+                // Relative to the start.
+                let transmittance = (-mu_t * warp.y(at)).exp();
+                transmittance * over_v(&arc, &warp, g, at)
+            };
+            let mut line = lines(&at, dark, integrand);
+            let sum: f64 = line.iter().sum();
+            if !(sum > 0.0 && sum.is_finite()) {
+                line.fill(1.0);
+            }
+            let mass = masses(&at, &line)[count - 1];
+            f.iter_mut().zip(line).for_each(|(f, line)| *f += line / mass);
         }
-        let mut below = 0.0;
-        let mut knots: Vec<Knot> = at.iter().zip(f).map(|(&at, f)| Knot { at, f, below: 0.0 }).collect();
-        for i in 1..count {
-            below += 0.5 * (knots[i].at.v - knots[i - 1].at.v) * (knots[i - 1].f + knots[i].f);
-            knots[i].below = below;
-        }
+        let below = masses(&at, &f);
+        let knots = at.iter().zip(f).zip(below).map(|((&at, f), below)| Knot { at, f, below }).collect();
         Self { warp, knots }
     }
 
@@ -89,7 +95,7 @@ impl Product {
         lerp(lower, upper, at) / self.total() / self.warp.slope(at)
     }
 
-    pub(super) fn invert(&self, u: f64) -> f64 {
+    pub(super) fn draw(&self, u: f64) -> f64 {
         let target = u * self.total();
         let (lower, upper) = self.segment(|knot| knot.below <= target);
         let width = upper.at.v - lower.at.v;
@@ -133,12 +139,22 @@ fn scale(arc: &Arc, mu_t: f64, g: f64) -> f64 {
     (1.0 / (chosen::EXTINCTION * mu_t + 1.0 / reach)).max(1e-18)
 }
 
-/// Which ends are dark, as compared with `|alpha| + |beta|` or, below a right angle, with the sum of the cosines at the
-/// ends.
+/// Which ends are dark: where `N` is small as compared with `|alpha| + |beta|` or, below a right angle, with the sum of the
+/// cosines at the ends; or where `S` is small.
 fn dark(scene: &Scene, arc: &Arc) -> [bool; 2] {
-    let [n_a, n_b] = [arc.cosine(arc.start()), arc.cosine(arc.end())];
+    let ends = [arc.start(), arc.end()];
+    let [n_a, n_b] = ends.map(|end| arc.cosine(end));
     let size = if arc.width() > 0.5 * PI { scene.alpha().abs() + scene.beta().abs() } else { n_a + n_b };
-    [n_a, n_b].map(|n| n < chosen::DARK * size)
+    ends.map(|end| arc.cosine(end) < chosen::DARK * size || arc.falloff(end) < chosen::DARK)
+}
+
+/// The integrals of the line through the values `f` at the knots, from the first up to each.
+fn masses(knots: &[Variable], f: &[f64]) -> Vec<f64> {
+    let mut below = vec![0.0; f.len()];
+    for i in 1..f.len() {
+        below[i] = below[i - 1] + 0.5 * (knots[i].v - knots[i - 1].v) * (f[i - 1] + f[i]);
+    }
+    below
 }
 
 /// Where the knots are, rounded to f32: so the kernel has them exactly.
@@ -153,8 +169,8 @@ fn knots(count: usize) -> Vec<Variable> {
 /// The values at the knots of the lines that follow `f` with little variance.
 ///
 /// The chords of a curve that bends upwards lie above it, by a twelfth of `width^2 f''` in the mean: lowered by that much,
-/// as least squares would have them, they leave a sixth of the variance. At an end, where `N` or `T` may vanish over no
-/// length at all, `f` says nothing of its segment; what does is a line through a place inside. Where `N` vanishes that
+/// as least squares would have them, they leave a sixth of the variance. At an end, where `N`, `S` or `T` may vanish over no
+/// length at all, `f` says nothing of its segment; what does is a line through a place inside. Where `N` or `S` vanishes that
 /// line ends at about 0, as a difference without digits: it is drawn lower there, so that the least share stands.
 fn lines(knots: &[Variable], dark: [bool; 2], f: impl Fn(Variable) -> f64) -> Vec<f64> {
     let last = knots.len() - 1;
@@ -180,10 +196,10 @@ fn lines(knots: &[Variable], dark: [bool; 2], f: impl Fn(Variable) -> f64) -> Ve
     std::iter::once(extended(0, 1, dark[0])).chain(inner).chain([extended(last, last - 1, dark[1])]).collect()
 }
 
-/// `rho N dtheta/dv`.
+/// `rho N S dtheta/dv`.
 fn over_v(arc: &Arc, warp: &Warp, g: f64, at: Variable) -> f64 {
     let angle = warp.angle(at);
-    phase(g, arc, angle) * arc.cosine(angle) * warp.slope(at)
+    phase(g, arc, angle) * arc.cosine(angle) * arc.falloff(angle) * warp.slope(at)
 }
 
 /// Linear between two knots.

@@ -1,6 +1,7 @@
 //! One ray, one emitter, one medium, and the light that is scattered once on the way.
 
 use super::arc::{Angle, Arc, Normal, subtended};
+use super::cone::{Cone, Line};
 use super::quadrature::integrate_pieces;
 use super::twofold::Vector;
 use crate::scene::{Emitter, FARTHEST, Medium, Ray};
@@ -9,22 +10,44 @@ use std::f64::consts::PI;
 /// One ray, one emitter, one medium in f64.
 ///
 /// - The direction is normalised in f64: distances are metres whatever the length of the ray's f32 direction.
-/// - The normal is taken as it is: its length scales `N`.
-/// - `mu_t` is the medium's f32 sum.
+/// - The normal is taken as it is: its length scales `N`. The axis of a spot is normalised in f64.
+/// - `mu_t` is the medium's f32 sum; of a coloured medium `mu_s` and `mu_t` are the [means](Medium::mean).
 /// - `t_max` is at most [`FARTHEST`].
 /// - `h` is at least 1e-18 m and at least 1e-9 of `|t_h|` and of `|t_min - t_h|`: an emitter on the ray's line is
-///   treated as one beside it. `alpha h` stays what it is.
+///   treated as one beside it. `alpha h` stays what it is, and `cos phi` is `a.(x - y)` over that `r`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scene {
     pub(super) t_min: f64,
     pub(super) t_max: f64,
     pub(super) h: f64,
     pub(super) t_h: f64,
-    normal: Option<Normal>,
+    emission: Emission,
     mu_s: f64,
     pub(super) mu_t: f64,
     pub(super) g: f64,
     pub(super) arc: Option<Arc>,
+}
+
+/// How the intensity of the emitter depends on the direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Emission {
+    /// Not at all.
+    Even,
+    /// As `N`.
+    Normal(Normal),
+    /// As `S`; `None` where the line of the ray misses the cone.
+    Spot(Option<Cone>),
+}
+
+impl Emission {
+    /// The lit part of an interval.
+    fn lit(&self, h: f64, t_h: f64, interval: (f64, f64)) -> Option<Arc> {
+        match *self {
+            Self::Even => Arc::new(h, t_h, interval, None),
+            Self::Normal(normal) => Arc::new(h, t_h, interval, Some(normal)),
+            Self::Spot(cone) => Arc::in_cone(h, t_h, interval, cone?),
+        }
+    }
 }
 
 impl Scene {
@@ -39,20 +62,25 @@ impl Scene {
         let t_h = -w.dot(d) / d.length();
         let scale = t_h.abs().max((t_min - t_h).abs());
         let h = (w_cross_d.length() / d.length()).max(1e-18).max(1e-9 * scale);
-        let normal = emitter.normal().map(|n| {
+        let normal = |n| {
             let n = Vector::from(n);
             Normal { alpha_h: n.cross(d).dot(w_cross_d) / d.dot(d), beta: n.dot(d) / d.length(), at_0: n.dot(w) }
-        });
+        };
+        let emission = match (emitter.normal(), emitter.cone()) {
+            (Some(n), _) => Emission::Normal(normal(n)),
+            (None, Some(cone)) => Emission::Spot(Cone::new(&cone, &Line { d, w, w_cross_d, h })),
+            (None, None) => Emission::Even,
+        };
         Self {
             t_min,
             t_max,
             h,
             t_h,
-            normal,
+            emission,
             mu_s: f64::from(medium.mu_s()),
             mu_t: f64::from(medium.mu_t()),
             g: f64::from(medium.g()),
-            arc: Arc::new(h, t_h, (t_min, t_max), normal),
+            arc: emission.lit(h, t_h, (t_min, t_max)),
         }
     }
 
@@ -60,8 +88,26 @@ impl Scene {
     /// lit, and `N r` along the ray, stay what they are.
     #[must_use]
     pub fn with_foot(&self, h: f64, t_h: f64) -> Self {
-        let normal = self.normal.map(|n| Normal { alpha_h: n.alpha_h + n.beta * (t_h - self.t_h), ..n });
-        Self { h, t_h, normal, arc: Arc::new(h, t_h, (self.t_min, self.t_max), normal), ..*self }
+        let emission = match self.emission {
+            Emission::Even => Emission::Even,
+            Emission::Normal(n) => Emission::Normal(Normal { alpha_h: n.alpha_h + n.beta * (t_h - self.t_h), ..n }),
+            Emission::Spot(cone) => Emission::Spot(cone.map(|cone| cone.with_foot(self.t_h - t_h))),
+        };
+        Self { h, t_h, emission, arc: emission.lit(h, t_h, (self.t_min, self.t_max)), ..*self }
+    }
+
+    /// The same scene with another medium.
+    pub(super) fn with_medium(&self, medium: &Medium) -> Self {
+        let [mu_s, mu_t, g] = [medium.mu_s(), medium.mu_t(), medium.g()].map(f64::from);
+        Self { mu_s, mu_t, g, ..*self }
+    }
+
+    pub(super) fn scatters(&self) -> bool {
+        self.mu_s > 0.0
+    }
+
+    fn normal(&self) -> Option<Normal> {
+        if let Emission::Normal(normal) = self.emission { Some(normal) } else { None }
     }
 
     /// The distance `h` from the emitter to the ray's line \[m\].
@@ -79,13 +125,13 @@ impl Scene {
     /// `alpha = n.u` with `u` from the emitter straight to the ray's line; 0 without a normal.
     #[must_use]
     pub fn alpha(&self) -> f64 {
-        self.normal.map_or(0.0, |n| n.alpha_h / self.h)
+        self.normal().map_or(0.0, |n| n.alpha_h / self.h)
     }
 
     /// `beta = n.d`; 0 without a normal.
     #[must_use]
     pub fn beta(&self) -> f64 {
-        self.normal.map_or(0.0, |n| n.beta)
+        self.normal().map_or(0.0, |n| n.beta)
     }
 
     /// The extinction coefficient `mu_t` \[1/m\].
@@ -100,7 +146,7 @@ impl Scene {
         (self.t_min, self.t_max)
     }
 
-    /// The part of [`interval`](Self::interval) where `N > 0` \[m\], if there is one.
+    /// The part of [`interval`](Self::interval) where `N > 0`, or inside the outer cone of a spot \[m\], if there is one.
     #[must_use]
     pub fn lit(&self) -> Option<(f64, f64)> {
         self.arc.map(|arc| (arc.t_a, arc.t_b))
@@ -143,13 +189,23 @@ impl Scene {
     /// The emitter's cosine `N` at `t` \[m\]; 1 without a normal.
     #[must_use]
     pub fn cosine(&self, t: f64) -> f64 {
-        self.normal.map_or(1.0, |n| (n.height(t, t - self.t_h) / self.r(t)).max(0.0))
+        self.normal().map_or(1.0, |n| (n.height(t, t - self.t_h) / self.r(t)).max(0.0))
     }
 
-    /// What is scattered into the ray at `t` \[m\], `mu_s T rho N / r^2` \[1/m^3\], for unit intensity.
+    /// The falloff `S` of a spot at `t` \[m\]; 1 of other emitters.
+    #[must_use]
+    pub fn falloff(&self, t: f64) -> f64 {
+        match self.emission {
+            Emission::Spot(cone) => cone.map_or(0.0, |cone| cone.falloff_at(self.h, (t, t - self.t_h))),
+            _ => 1.0,
+        }
+    }
+
+    /// What is scattered into the ray at `t` \[m\], `mu_s T rho N S / r^2` \[1/m^3\], for unit intensity.
     #[must_use]
     pub fn integrand(&self, t: f64) -> f64 {
-        self.mu_s * self.transmittance(t) * self.phase(t) * self.cosine(t) / self.r(t).powi(2)
+        let emitted = self.cosine(t) * self.falloff(t);
+        self.mu_s * self.transmittance(t) * self.phase(t) * emitted / self.r(t).powi(2)
     }
 
     /// The radiance scattered once, for unit intensity \[1/m^2\]: the integral of [`integrand`](Self::integrand) over
@@ -162,11 +218,13 @@ impl Scene {
         let integrand = |s: f64| {
             let angle = arc.at_odds(s);
             let path = arc.t(angle) - self.t_min + self.h / arc.cos_theta(angle);
-            let rho = phase(self.g, arc, angle);
-            (-self.mu_t * path).exp() * rho * arc.cosine(angle) * angle.from_a * angle.to_b
+            let emitted = arc.cosine(angle) * arc.falloff(angle);
+            (-self.mu_t * path).exp() * phase(self.g, arc, angle) * emitted * angle.from_a * angle.to_b
         };
         // exp(-64) of the arc is left out at each end.
-        let ends: [f64; 9] = std::array::from_fn(|i| 16.0 * i as f64 - 64.0);
+        let mut ends: Vec<f64> = (0..=8).map(|i| 16.0 * f64::from(i) - 64.0).collect();
+        ends.extend(arc.kinks().into_iter().map(|kink| (kink.from_a / kink.to_b).ln()).filter(|s| s.abs() < 64.0));
+        ends.sort_by(f64::total_cmp);
         self.mu_s / self.h * integrate_pieces(integrand, &ends, 1e-13) / arc.width()
     }
 }
@@ -207,9 +265,11 @@ mod tests {
         );
     }
 
-    /// The integral over distance, with a look at every decade around the emitter and behind both ends.
+    /// The integral over distance, with a look at every decade around the emitter and behind both ends, and on both sides
+    /// of where the falloff is not smooth.
     fn radiance_over_distance(scene: &Scene) -> f64 {
-        let Some((t_a, t_b)) = scene.lit() else { return 0.0 };
+        let Some(arc) = scene.arc else { return 0.0 };
+        let (t_a, t_b) = (arc.t_a, arc.t_b);
         let decades = (-18..=18).map(|k| 10f64.powi(k));
         let mut ends: Vec<f64> = decades
             .flat_map(|x| {
@@ -221,6 +281,7 @@ mod tests {
                     scene.t_h + x * scene.h,
                 ]
             })
+            .chain(arc.kinks().into_iter().map(|kink| arc.t(kink)))
             .filter(|t| (t_a..t_b).contains(t))
             .chain([t_a, t_b])
             .collect();
@@ -353,8 +414,11 @@ mod tests {
         fn the_integral_over_angle_is_that_over_distance(scene in scene()) {
             let expected = radiance_over_distance(&scene);
             let error = (scene.radiance() - expected).abs();
+            // what the rounding of an end makes where the light goes out at once
+            let (t_a, t_b) = scene.lit().unwrap_or_default();
+            let rounding = 2.0 * f64::EPSILON * (t_a * scene.integrand(t_a) + t_b * scene.integrand(t_b));
             // of subnormal numbers no digits are promised
-            prop_assert!(error <= 1e-11 * expected + 1e-290, "{error:e} of {expected:e}");
+            prop_assert!(error <= 1e-11 * expected + rounding + 1e-290, "{error:e} of {expected:e}");
         }
 
         #[test]
@@ -368,7 +432,7 @@ mod tests {
                 let rho = paper::phase(scene.g, theta);
                 prop_assert!((scene.phase(t) - rho).abs() <= 1e-11 * rho);
                 let n = (scene.alpha() * theta.cos() + scene.beta() * theta.sin()).max(0.0);
-                prop_assert!(scene.normal.is_none() || (scene.cosine(t) - n).abs() <= 1e-13);
+                prop_assert!(scene.normal().is_none() || (scene.cosine(t) - n).abs() <= 1e-13);
             }
         }
     }

@@ -5,17 +5,28 @@ use std::ops::{Add, Mul, Sub};
 
 /// The unevaluated sum of a number and of what rounding it took away.
 #[derive(Clone, Copy, Debug)]
-struct Twofold {
+pub(super) struct Twofold {
     high: f64,
     low: f64,
 }
 
 impl Twofold {
+    /// Rounded to f64.
+    pub(super) fn value(self) -> f64 {
+        self.high
+    }
+
     /// `a + b` exactly (Knuth).
     fn sum(a: f64, b: f64) -> Self {
         let high = a + b;
         let of_b = high - a;
         Self { high, low: (a - (high - of_b)) + (b - of_b) }
+    }
+}
+
+impl From<f64> for Twofold {
+    fn from(value: f64) -> Self {
+        Self { high: value, low: 0.0 }
     }
 }
 
@@ -58,9 +69,14 @@ impl Vector {
         Self([a1 * b2 - a2 * b1, a2 * b0 - a0 * b2, a0 * b1 - a1 * b0])
     }
 
-    pub(super) fn dot(self, o: Self) -> f64 {
+    /// The scalar product, for further products that cancel.
+    pub(super) fn product(self, o: Self) -> Twofold {
         let ([a0, a1, a2], [b0, b1, b2]) = (self.0, o.0);
-        (a0 * b0 + a1 * b1 + a2 * b2).high
+        a0 * b0 + a1 * b1 + a2 * b2
+    }
+
+    pub(super) fn dot(self, o: Self) -> f64 {
+        self.product(o).value()
     }
 
     pub(super) fn length(self) -> f64 {

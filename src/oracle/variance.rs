@@ -21,14 +21,18 @@ impl Scene {
     /// That of a strategy.
     #[must_use]
     pub fn relative_variance(&self, strategy: Strategy) -> Option<f64> {
-        let (density, ..) = self.density(strategy)?;
-        let over_angle = |place: &Place| match &density {
+        self.relative_variance_by(&self.sampled(strategy)?.density, self)
+    }
+
+    /// That of the density of another scene, which differs in its medium alone.
+    pub(super) fn relative_variance_by(&self, density: &Density, of: &Self) -> Option<f64> {
+        let over_angle = |place: &Place| match density {
             // dt/dtheta = r^2/h
             Density::Distance(exponential) => exponential.pdf(place.t) * self.h / place.cos_theta.powi(2),
             Density::Angle(angular) => angular.pdf_at(place.angle),
             Density::HalfAngle(product) => product.pdf_at(place.at),
         };
-        self.variance_of(over_angle, &density.kinks())
+        self.variance_of(over_angle, &density.kinks(), of)
     }
 
     /// That of the best sampler of the paper, for reference: the density of [`Strategy::TaylorPhase`], whose variate is
@@ -40,27 +44,29 @@ impl Scene {
         let arc = self.arc?;
         let phase = Angular::new(arc, Shape::Taylor(Taylor::phase(self.g)));
         let transmittance = |t: f64| (-self.mu_t * (t - arc.t_a + self.r(t) - self.r(arc.t_a))).exp();
-        let [c0, c1, c2] = [arc.t_a, phase.invert(0.5), arc.t_b].map(transmittance);
+        let [c0, c1, c2] = [arc.t_a, phase.draw(0.5), arc.t_b].map(transmittance);
         let bezier = |u: f64| (1.0 - u).powi(2) * c0 + 2.0 * u * (1.0 - u) * c1 + u * u * c2;
         let over_angle =
             |place: &Place| phase.pdf_at(place.angle) * bezier(phase.cdf_at(place.angle)) * 3.0 / (c0 + c1 + c2);
-        self.variance_of(over_angle, phase.kink().as_slice())
+        self.variance_of(over_angle, phase.kink().as_slice(), self)
     }
 
     /// That of a density over `theta` \[1/rad\] with kinks at some distances \[m\].
     ///
-    /// The quadrature runs over the variable of the product densities, in which the integrand has no narrow features:
-    /// what others make of it, their densities may.
-    fn variance_of(&self, density: impl Fn(&Place) -> f64, kinks: &[f64]) -> Option<f64> {
+    /// The quadrature runs over the variable of the product densities of the scene that the density is `of`, in which the
+    /// integrand has no narrow features: what others make of it, their densities may.
+    fn variance_of(&self, density: impl Fn(&Place) -> f64, kinks: &[f64], of: &Self) -> Option<f64> {
         let arc = self.arc?;
-        let product = Product::new(self, arc, 17);
+        let product = Product::new(of, arc, 17);
         let warp = product.warp();
         let integrand = |place: &Place| {
             // relative to the start of the lit part
             let transmittance = (-self.mu_t * warp.y(place.at)).exp();
-            transmittance * phase(self.g, &arc, place.angle) * arc.cosine(place.angle)
+            transmittance * phase(self.g, &arc, place.angle) * arc.cosine(place.angle) * arc.falloff(place.angle)
         };
-        let mut ends: Vec<f64> = product.knots().chain(kinks.iter().map(|&t| warp.at(t).v)).collect();
+        let of_falloff = arc.kinks().into_iter().map(|kink| arc.t(kink));
+        let kinks = kinks.iter().copied().chain(of_falloff).map(|t| warp.at(t).v);
+        let mut ends: Vec<f64> = product.knots().chain(kinks).collect();
         ends.extend([1e-6, 1e-4, 1e-2].into_iter().flat_map(|v| [v, 1.0 - v]));
         ends.sort_by(f64::total_cmp);
         let integral = |of: &dyn Fn(&Place) -> f64| {
@@ -116,14 +122,14 @@ mod tests {
                     continue;
                 }
                 let weight = |u: f64| {
-                    let t = scene.invert(strategy, u);
+                    let t = scene.draw(strategy, u);
                     let (f, p) = (scene.integrand(t), scene.pdf(strategy, t));
                     if f > 0.0 { f / p } else { 0.0 }
                 };
                 // the tails, and the kinks at the knots
                 let tails = (0..12).map(|k| 10f64.powi(-k));
                 let mut ends: Vec<f64> = tails.flat_map(|u| [u, 1.0 - u]).collect();
-                ends.extend(scene.density(strategy).unwrap().0.kinks().into_iter().map(|t| scene.cdf(strategy, t)));
+                ends.extend(scene.sampled(strategy).unwrap().density.kinks().into_iter().map(|t| scene.cdf(strategy, t)));
                 ends.sort_by(f64::total_cmp);
                 let over_u = |ends: &[f64]| {
                     let first = integrate_pieces(weight, ends, 1e-7);

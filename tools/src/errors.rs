@@ -320,7 +320,7 @@ impl Rounding {
 
 /// The error of the exact inverse, rounded.
 fn cdf_floor(scene: &Scene, strategy: Strategy, u: f64) -> f64 {
-    let t = scene.invert(strategy, u) as f32;
+    let t = scene.draw(strategy, u) as f32;
     (scene.cdf(strategy, t.into()) - u).abs()
 }
 
@@ -333,7 +333,7 @@ fn rounded(scene: &Scene, t: f64) -> Scene {
 }
 
 fn offset_floor(scene: &Scene, strategy: Strategy, moved: f64, u: f64) -> Option<f64> {
-    let t = rounded(scene, scene.invert(strategy, u)).invert(strategy, u);
+    let t = rounded(scene, scene.draw(strategy, u)).draw(strategy, u);
     offset_error(scene, strategy, [t - moved, t + moved], u)
 }
 
@@ -349,7 +349,7 @@ fn offset_error(scene: &Scene, strategy: Strategy, ends: [f64; 2], u: f64) -> Op
         _ => false,
     };
     let (t_a, t_b) = scene.lit().filter(|_| comparable)?;
-    let exact = scene.invert(strategy, u);
+    let exact = scene.draw(strategy, u);
     let offset = (exact - t_a).min(t_b - exact);
     Some(beyond(ends, exact) / ulp(offset))
 }
@@ -380,7 +380,7 @@ fn r_error(scene: &Scene, strategy: Strategy, rounding: &Rounding, u: f64, r: f6
     if of_t <= 4.0 {
         return of_t;
     }
-    outside([u - VARIATE, u + VARIATE].map(|u| scene.invert(strategy, u))).min(of_t)
+    outside([u - VARIATE, u + VARIATE].map(|u| scene.draw(strategy, u))).min(of_t)
 }
 
 fn integrand_error(scene: &Scene, t: f64, integrand: f64) -> Option<f64> {
@@ -394,7 +394,7 @@ fn integrand_error(scene: &Scene, t: f64, integrand: f64) -> Option<f64> {
 fn weight_error(scene: &Scene, strategy: Strategy, rounding: &Rounding, u: f64, weight: f64) -> Option<f64> {
     let at = |t: f64| scene.integrand(t) / scene.pdf(strategy, t);
     // At an end where the density vanishes the weight is a limit, and no number.
-    let inverse = |u: f64| scene.invert(strategy, u.clamp(OFF_THE_ENDS, 1.0 - OFF_THE_ENDS));
+    let inverse = |u: f64| scene.draw(strategy, u.clamp(OFF_THE_ENDS, 1.0 - OFF_THE_ENDS));
     let t = inverse(u);
     let exact = at(t);
     let comparable = depth(scene, t) < DEPTH && exact > TINY && scene.cosine(t) > VANISHING;

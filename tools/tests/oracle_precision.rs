@@ -6,11 +6,13 @@
 
 mod reference;
 
-use airlight::Strategy;
 use airlight::oracle;
+use airlight::{Emitter, Medium, Ray, Strategy};
 use airlight_tools::families::{Case, Family};
+use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 use reference::{Big, Densities, Scene, big};
+use std::f64::consts::TAU;
 use std::fmt::Write;
 use std::ops::Range;
 
@@ -67,6 +69,88 @@ fn the_oracle_is_as_exact_as_f64_allows() {
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
+/// A ray and a spot: cones from 0.05 to 90 degrees, the emitter from a micrometre to 10 m beside the ray.
+fn spot(random: &mut impl FnMut() -> f64) -> (Ray, Emitter) {
+    let mut unit = || {
+        let (z, phi) = (2.0 * random() - 1.0, TAU * random());
+        DVec3::new((1.0 - z * z).sqrt() * phi.cos(), (1.0 - z * z).sqrt() * phi.sin(), z)
+    };
+    let [direction, side, axis] = [unit(), unit(), unit()];
+    let across = direction.cross(side).normalize();
+    let (h, t_h) = (10f64.powf(7.0 * random() - 6.0), 20.0 * random() - 5.0);
+    let position = t_h * direction - h * across;
+    let half_angle = [0.1, 1.0, 10.0, 90.0][(4.0 * random()) as usize] * random().max(0.5);
+    let outer = half_angle.to_radians().cos() as f32;
+    let inner = outer + (1.0 - outer) * [0.0, 1.0, random() as f32][(3.0 * random()) as usize];
+    // any axis, one towards the ray, one with the ray along the side of the cone, one with a cone that the ray hardly touches
+    let toward = across + (8.0 * random() - 4.0) * direction;
+    let along_side = direction * f64::from(outer) + across * f64::from((1.0 - outer * outer).max(0.0).sqrt());
+    let (off_plane, in_plane) = (f64::from((1.0 - outer * outer).max(0.0).sqrt()), f64::from(outer));
+    let touching = toward.normalize() * in_plane + direction.cross(across) * off_plane * (1.0 - 1e-6 * random());
+    let axes = [axis, toward + 1e-3 * axis, along_side, touching];
+    let axis = axes[(4.0 * random()) as usize].normalize().as_vec3();
+    let t_max = if random() < 0.5 { f32::INFINITY } else { (20.0 * random()) as f32 };
+    let ray = Ray::new(Vec3::ZERO, direction.as_vec3(), 0.0, t_max).expect("a ray");
+    (ray, Emitter::spot(position.as_vec3(), axis, outer, inner).expect("a spot"))
+}
+
+/// The cosine of the angle between the axis of a spot and the point at `t`, less `c`.
+fn beyond_cosine(ray: &Ray, emitter: &Emitter, t: &Big, c: f32) -> Big {
+    let exact = |v: [f32; 3]| v.map(|x| big(x.into()));
+    let dot = |a: &[Big; 3], b: &[Big; 3]| &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2];
+    let (o, d, y) = (exact(ray.origin()), exact(ray.direction()), exact(emitter.position()));
+    let a = exact(emitter.cone().expect("a spot").axis());
+    let reach = t / dot(&d, &d).sqrt();
+    let from_y = [0, 1, 2].map(|k| &o[k] - &y[k] + &reach * &d[k]);
+    dot(&a, &from_y) / (dot(&a, &a) * dot(&from_y, &from_y)).sqrt() - big(c.into())
+}
+
+/// Where the oracle clips a ray to a cone, a point 4 ulp further in is inside and one 4 ulp further out is not; and the falloff
+/// has all its digits, but for what such a change of `t`, or of the ends, makes.
+#[test]
+fn the_cone_of_a_spot_is_as_exact_as_f64_allows() {
+    let mut state = SEED;
+    let mut random = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1u64 << 53) as f64
+    };
+    let medium = Medium::new(0.0, 1.0, 0.0).expect("a medium");
+    let (mut clipped, mut worst) = (0, 0.0f64);
+    for _ in 0..3000 {
+        let (ray, emitter) = spot(&mut random);
+        let cone = emitter.cone().expect("a spot");
+        let scene = oracle::Scene::new(&ray, &emitter, &medium);
+        let Some((t_a, t_b)) = scene.lit() else { continue };
+        let ulp = |t: f64| 4.0 * f64::EPSILON * t.abs().max((t - scene.t_h()).abs());
+        let (t_min, t_max) = scene.interval();
+        let beyond = |t: f64| beyond_cosine(&ray, &emitter, &big(t), cone.cos_outer());
+        for (t, inwards) in [(t_a, ulp(t_a)), (t_b, -ulp(t_b))] {
+            let inside = beyond(t + inwards) > big(0.0);
+            assert!(inside || t_b - t_a < 2.0 * inwards.abs(), "{ray:?} {emitter:?}: {t:e} is outside");
+            if t_min < t && t < t_max {
+                assert!(beyond(t - inwards) < big(0.0), "{ray:?} {emitter:?}: {t:e} is inside");
+                clipped += 1;
+            }
+        }
+        let t = scene.draw(Strategy::EquiAngular, 0.01 + 0.98 * random());
+        let falloff = |t: f64| {
+            let fall = big(f64::from(cone.cos_inner()) - f64::from(cone.cos_outer()));
+            let above = beyond(t);
+            let s = if above < fall { above / fall } else { big(1.0) };
+            &s * &s * (big(3.0) - big(2.0) * &s)
+        };
+        let (exact, moved) = (falloff(t), [falloff(t - ulp(t)), falloff(t + ulp(t))]);
+        let of_t = moved.iter().map(|moved| distance(moved, &exact)).sum::<f64>() / exact.to_f64().value();
+        // s is a product of the angles from both edges, S at most its square
+        let of_edges = 2.0 * (ulp(t_a) / (t - t_a) + ulp(t_b) / (t_b - t));
+        let error = distance(&big(scene.falloff(t)), &exact) / exact.to_f64().value() - of_t - of_edges;
+        assert!(error <= BOUND, "{ray:?} {emitter:?}: at {t:e} the falloff is off by {error:e}");
+        worst = worst.max(error);
+    }
+    println!("{clipped} ends of cones; largest error of the falloff beyond that {worst:.1e}");
+    assert!(clipped > 1000, "{clipped}");
+}
+
 /// The first lit cases of a family, with their numbers.
 fn lit_cases(family: Family) -> Vec<(u64, Case)> {
     let cases = (0..).map(|index| (index, family.case(SEED, index)));
@@ -87,7 +171,7 @@ impl Comparison {
         let u = if 0.0 < case.u && case.u < 1.0 { case.u.into() } else { 0.5 };
         // A point of the lit part: Strategy::Transmittance alone may sample others.
         let lit = &Strategy::ALL[1..];
-        let t = oracle.invert(lit[i % lit.len()], u);
+        let t = oracle.draw(lit[i % lit.len()], u);
         Self { reference: Scene::new(case), oracle, t, integrated: i.is_multiple_of(INTEGRATED) }
     }
 
