@@ -44,17 +44,16 @@
 //! # Noise-free fog lights
 //!
 //! ```
-//! use airlight::glam::Vec3;
 //! use airlight::{Emitter, Integral, Medium, Nodes, Ray};
 //!
 //! # fn main() -> Result<(), airlight::Error> {
 //! let fog = Medium::new(0.01, 0.1, 0.6)?; // mu_a, mu_s [1/m], g
-//! let view = Ray::new(Vec3::ZERO, Vec3::Z, 0.0, 40.0)?;
+//! let view = Ray::new([0.0; 3], [0.0, 0.0, 1.0], 0.0, 40.0)?;
 //! let integral = Integral::new(Nodes::Eight);
 //! let mut radiance = 0.0;
 //! # let mut expected = 0.0;
 //! for x in [-2.0, 2.0] {
-//!     let lamp = Emitter::point_normal(Vec3::new(x, 1.0, 3.0), Vec3::NEG_Y)?;
+//!     let lamp = Emitter::point_normal([x, 1.0, 3.0], [0.0, -1.0, 0.0])?;
 //!     radiance += 100.0 * integral.radiance_one(&view, &lamp, &fog); // 100 W/sr
 //! #   expected += 100.0 * airlight::oracle::Scene::new(&view, &lamp, &fog).radiance();
 //! }
