@@ -106,7 +106,7 @@
 //! let threads = match threads {
 //!     Threads::Pool => 2,
 //!     Threads::AtMost(threads) => threads.get(),
-//!     Threads::This => 1,
+//!     Threads::Caller => 1,
 //! };
 //! ```
 //!

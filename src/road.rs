@@ -23,7 +23,8 @@ use crate::scene::{Emitter, Medium, Ray};
 use crate::simd::{Backend, Isa, Kernel, MOST_LANES, Machine};
 use crate::strategy::product::knots;
 use crate::strategy::{equi_angular, point_normal, taylor_phase, taylor_transmittance, transmittance};
-use crate::{Precision, Strategy, Threads};
+use crate::threads::{Split, Threads};
+use crate::{Precision, Strategy};
 use core::marker::PhantomData;
 use core::ops::Range;
 use core::slice::from_ref;
@@ -112,19 +113,28 @@ pub(crate) fn travel<T: Task>(
     inputs: &Inputs<'_>,
     out: Out<'_, T>,
 ) -> Counts {
-    let Some((low, high)) = halves(inputs) else {
+    let split = threads.split();
+    let Some((low, high)) = parts(inputs, split.map_or([1, 2], |split| split.share)) else {
         return by_groups::<T>(backend, method, inputs, out);
     };
     let (out_low, out_high) = T::Out::split_at(out, low.values());
-    #[cfg(feature = "rayon")]
-    if let Some([of_low, of_high]) = threads.halves() {
-        let (low, high) = rayon::join(
-            || travel::<T>(of_low, backend, method, &low, out_low),
-            || travel::<T>(of_high, backend, method, &high, out_high),
-        );
-        return low + high;
+    let on = |threads, inputs: Inputs<'_>, out| travel::<T>(threads, backend, method, &inputs, out);
+    match split {
+        Some(Split { threads: [of_low, of_high], .. }) => {
+            let (low, high) = join(|| on(of_low, low, out_low), || on(of_high, high, out_high));
+            low + high
+        }
+        _ => on(threads, low, out_low) + on(threads, high, out_high),
     }
-    travel::<T>(threads, backend, method, &low, out_low) + travel::<T>(threads, backend, method, &high, out_high)
+}
+
+#[cfg(feature = "rayon")]
+use rayon::join;
+
+/// One after the other.
+#[cfg(not(feature = "rayon"))]
+fn join<A, B>(a: impl FnOnce() -> A, b: impl FnOnce() -> B) -> (A, B) {
+    (a(), b())
 }
 
 /// Takes one ray the whole way, with what the task takes for it.
@@ -148,20 +158,25 @@ pub(crate) fn travel_one<T: Task>(
     by_groups::<T>(backend, method, &Inputs::one(rays, *emitter, *medium, given), out)
 }
 
-/// Halves of whole chunks, so that only the last chunk is cut short; `None` for a single chunk.
-fn halves<'a>(inputs: &Inputs<'a>) -> Option<(Inputs<'a>, Inputs<'a>)> {
-    let half = |length: usize, chunk: usize| length.div_ceil(chunk).div_ceil(2) * chunk;
+/// Two parts of whole chunks, so that only the last chunk is cut short, the first with so many of so many equal parts; `None`
+/// for a single chunk.
+fn parts<'a>(inputs: &Inputs<'a>, [low, all]: [usize; 2]) -> Option<(Inputs<'a>, Inputs<'a>)> {
+    // Of two chunks or more both parts have one.
+    let first = |length: usize, chunk: usize| {
+        let chunks = length.div_ceil(chunk) as u128 * low as u128 / all as u128;
+        (chunks as usize).max(1) * chunk
+    };
     let (rays, per_ray) = (inputs.len(), inputs.per_ray);
     let chunk = match CHUNK / per_ray {
         _ if per_ray >= MANY => 1,
         rays => rays.next_multiple_of(MOST_LANES),
     };
     if rays > chunk {
-        let half = half(rays, chunk);
-        Some((inputs.slice(0..half), inputs.slice(half..rays)))
+        let first = first(rays, chunk);
+        Some((inputs.slice(0..first), inputs.slice(first..rays)))
     } else if rays == 1 && per_ray > CHUNK {
-        let half = half(per_ray, CHUNK);
-        Some((inputs.of_one_ray(0..half), inputs.of_one_ray(half..per_ray)))
+        let first = first(per_ray, CHUNK);
+        Some((inputs.of_one_ray(0..first), inputs.of_one_ray(first..per_ray)))
     } else {
         None
     }

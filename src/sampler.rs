@@ -77,7 +77,7 @@ impl Sampler {
     /// ```
     /// # use airlight::{Sampler, Strategy, Threads};
     /// let sampler = Sampler::new(Strategy::Product5);
-    /// let here = sampler.with_threads(Threads::This);
+    /// let here = sampler.with_threads(Threads::Caller);
     /// ```
     #[must_use]
     pub fn with_threads(self, threads: Threads) -> Self {

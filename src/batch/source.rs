@@ -93,8 +93,11 @@ impl<const K: usize> Gathered<K> {
 
     /// The entries of `table` that `index` names, as columns; NaN where there is none.
     fn gather<T: Entry<K>>(&mut self, table: &[T], index: &[u32]) -> [&[f32]; K] {
-        let columns = self.0.get_or_insert_with(|| [[0.0; MOST_RAYS]; K]);
-        for (ray, &index) in index.iter().enumerate().take(MOST_RAYS) {
+        let columns = match &mut self.0 {
+            Some(columns) => columns,
+            none => none.insert([[0.0; MOST_RAYS]; K]),
+        };
+        for (ray, &index) in index.iter().enumerate() {
             let row = table.get(index as usize).map_or([f32::NAN; K], T::row);
             for (column, value) in columns.iter_mut().zip(row) {
                 column[ray] = value;
