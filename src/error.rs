@@ -5,8 +5,8 @@ use std::fmt;
 
 /// Why a call was refused. Nothing was written to any output.
 ///
-/// Only the *call* can be malformed: lengths that differ, or a parameter that holds for the whole batch and is out of
-/// range. A single bad ray is not an error: it gets pdf 0 and weight 0 and is counted in [`Counts`](crate::Counts).
+/// Only the *call* can be malformed: lengths that differ, a table without entries, a parameter that holds for the whole batch
+/// and is out of range, or something that there is not. A single bad ray is not an error: it gets pdf 0 and weight 0 and is counted in [`Counts`](crate::Counts).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Error {

@@ -79,6 +79,18 @@ impl Integral {
         self.precision
     }
 
+    /// Its backend.
+    #[must_use]
+    pub fn backend(&self) -> Backend {
+        self.backend
+    }
+
+    /// Its threads.
+    #[must_use]
+    pub fn threads(&self) -> Threads {
+        self.threads
+    }
+
     fn quadrature(&self) -> Quadrature {
         Quadrature { nodes: self.nodes, precision: self.precision }
     }
@@ -90,7 +102,8 @@ impl Integral {
     /// are.
     ///
     /// # Errors
-    /// [`Error::Length`] if a column has another length than `rays.origin[0]`. Nothing is written then.
+    /// [`Error::Length`] if a column has another length than `rays.origin[0]`; [`Error::Empty`] and [`Error::Unavailable`] as
+    /// [`Sampler::sample`](crate::Sampler::sample). Nothing is written then.
     pub fn radiance(
         &self,
         rays: &Rays<'_>,
@@ -103,7 +116,7 @@ impl Integral {
         Ok(road::travel::<road::Radiance>(self.threads, self.backend, self.quadrature(), &inputs, radiance))
     }
 
-    /// [`radiance`](Self::radiance) of one ray.
+    /// [`radiance`](Self::radiance) of one ray; 0 if there is no kernel for the emitter or the medium.
     #[must_use]
     pub fn radiance_one(&self, ray: &Ray, emitter: &Emitter, medium: &Medium) -> f32 {
         let mut radiance = 0.0;

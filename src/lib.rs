@@ -118,8 +118,8 @@
 //! }
 //! ```
 //!
-//! Positions and directions are taken as `impl Into<[f32; 3]>` and given as `[f32; 3]`: glam's `Vec3`, of any version, is
-//! one, and no part of the promise.
+//! Positions and directions are taken as `impl Into<[f32; 3]>` and given as `[f32; 3]`: the `Vec3` of any version of glam
+//! converts into that, and none is part of the promise. What the feature `measure` adds is none either.
 //!
 //! # Reproducibility
 //!

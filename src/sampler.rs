@@ -1,4 +1,4 @@
-//! The public face: sample, pdf and evaluate, for a batch or for one ray.
+//! The public face: sample, pdf, cdf and evaluate, for a batch or for one ray.
 
 use crate::batch::{Counts, Emitters, Inputs, Media, Rays, Samples};
 use crate::road::Method;
@@ -105,6 +105,18 @@ impl Sampler {
         self.precision
     }
 
+    /// Its backend.
+    #[must_use]
+    pub fn backend(&self) -> Backend {
+        self.backend
+    }
+
+    /// Its threads.
+    #[must_use]
+    pub fn threads(&self) -> Threads {
+        self.threads
+    }
+
     /// Draws a distance for each of the uniform variates `u` in `[0, 1]`.
     ///
     /// `u` and the columns of `samples` have the length of the batch, or k times that: then the k samples of a ray lie
@@ -124,8 +136,8 @@ impl Sampler {
     ///
     /// # Errors
     /// [`Error::Length`] if a column has another length than `rays.origin[0]`, or `u` one that is no multiple of it, or
-    /// an output another one than `u`. [`Error::Unavailable`] for spots and coloured media, which have no kernel yet. Nothing
-    /// is written then.
+    /// an output another one than `u`; [`Error::Empty`] for a table without entries, also with no rays;
+    /// [`Error::Unavailable`] for spots and coloured media, which have no kernel yet. Nothing is written then.
     pub fn sample(
         &self,
         rays: &Rays<'_>,
@@ -187,8 +199,8 @@ impl Sampler {
     /// 0 before the sampled interval and 1 beyond it. It is the inverse of `sample`: from `t` back to `u`, which pbrt calls
     /// `Invert`, for bidirectional and primary-sample-space methods.
     ///
-    /// Of [`Precision::Exact`] the error is 2^-20 at most, at the given `t` as it is; of `Fast` 8e-6 for 99.9 % of ordinary rays. What is written for an empty or invalid ray
-    /// is 0. A NaN in `t` makes its ray invalid.
+    /// With [`Precision::Exact`] the error is at most 2^-20 at the given `t`, with `Fast` at most 8e-6 for 99.9 % of the rays
+    /// of [ordinary scenes](Precision). What is written for an empty or invalid ray is 0. A NaN in `t` makes its ray invalid.
     ///
     /// ```
     /// # use airlight::{Emitter, Medium, Ray, Sampler, Strategy};
@@ -201,6 +213,7 @@ impl Sampler {
     ///
     /// # Errors
     /// As [`sample`](Self::sample).
+    #[doc(alias = "invert")]
     pub fn cdf(
         &self,
         rays: &Rays<'_>,
@@ -271,7 +284,7 @@ impl Sampler {
         pdf
     }
 
-    /// [`cdf`](Self::cdf) for one ray.
+    /// [`cdf`](Self::cdf) for one ray; 0 if there is no kernel for the emitter or the medium.
     #[must_use]
     pub fn cdf_one(&self, ray: &Ray, emitter: &Emitter, medium: &Medium, t: f32) -> f32 {
         let mut cdf = 0.0;

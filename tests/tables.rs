@@ -3,7 +3,7 @@
 
 mod scenes;
 
-use airlight::{Counts, Emitter, Emitters, Media, Medium, Rays, Sampler, Strategy};
+use airlight::{Counts, Emitter, Emitters, Integral, Media, Medium, Nodes, Rays, Sampler, Strategy};
 use airlight_tools::backends::distinct;
 use airlight_tools::samplers;
 use scenes::{Columns, Drawn, Random};
@@ -58,6 +58,18 @@ impl Batch {
         drawn.counts = sampler.sample(&self.rays(), emitters, media, &u, &mut drawn.samples()).unwrap();
         drawn
     }
+
+    /// The bits of densities, distribution functions and integrands at `t`, and of the integrals.
+    fn at(&self, sampler: &Sampler, emitters: &Emitters<'_>, media: &Media<'_>, t: &[f32]) -> Vec<u32> {
+        let (rays, integral) = (self.rays(), Integral::new(Nodes::Four).with_backend(sampler.backend()));
+        let [mut pdf, mut cdf, mut integrand] = [(); 3].map(|()| vec![f32::NAN; t.len()]);
+        let mut radiance = vec![f32::NAN; rays.len()];
+        sampler.pdf(&rays, emitters, media, t, &mut pdf).unwrap();
+        sampler.cdf(&rays, emitters, media, t, &mut cdf).unwrap();
+        sampler.evaluate(&rays, emitters, media, t, &mut integrand).unwrap();
+        integral.radiance(&rays, emitters, media, &mut radiance).unwrap();
+        [pdf, cdf, integrand, radiance].concat().into_iter().map(f32::to_bits).collect()
+    }
 }
 
 #[test]
@@ -78,6 +90,8 @@ fn a_table_gives_the_bits_of_columns() {
                     for i in 0..rays * per_ray {
                         assert_eq!(drawn.bits(i), expected.bits(i), "sample {i}: {}", of());
                     }
+                    let t = &expected.t;
+                    assert!(batch.at(&sampler, &emitters, &media, t) == batch.at(&sampler, &columns.0, &columns.1, t));
                 }
             }
         }
@@ -87,7 +101,7 @@ fn a_table_gives_the_bits_of_columns() {
 #[test]
 fn an_index_out_of_range_makes_its_ray_invalid() {
     const RAYS: usize = 1000;
-    for strategy in [Strategy::EquiAngular, Strategy::Product5] {
+    for &strategy in Strategy::ALL {
         let (good, sampler) = (Batch::new(RAYS), Sampler::new(strategy));
         let expected = good.sample(&sampler, &good.emitters(), &good.media(), 1);
         let mut bad = Batch::new(RAYS);
