@@ -220,7 +220,7 @@ fn a_library_without_a_width_has_that_of_the_fastest_backend() {
 
 #[test]
 fn instructions_are_counted_in_every_precision_where_there_is_valgrind() {
-    let output = profile(&["--instructions", "--strategy", "transmittance", "--json", "-"]);
+    let output = profile(&["--instructions", "--strategy", "equi-angular", "--json", "-"]);
     let told = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(0), "{told}");
     if told.starts_with("valgrind is missing") {
