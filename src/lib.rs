@@ -124,7 +124,8 @@
 //! # Reproducibility
 //!
 //! Equal inputs give equal bits, whatever the number of threads, the length of the batch or the place in it. Between
-//! machines this holds where the instruction sets round alike: with fused multiply-add, or without. All of it is said of
+//! machines this holds where the instruction sets round alike: x86-64 with fused multiply-add and AArch64 give equal bits
+//! ([`Backend::is_fused`]), and those without it among themselves. All of it is said of
 //! the default [floating-point environment](Sampler#floating-point-environment), which flushes nothing to zero.
 
 mod batch;

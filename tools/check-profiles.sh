@@ -18,5 +18,5 @@ for profile in "${profiles[@]}"; do
         echo "$profile: other bits than ${profiles[0]}:"
         diff <(echo "$first") <(echo "$hashes") || exit 1
     fi
-    echo "$profile: $(echo "$hashes" | wc -l) strategies on backends ran, bits as in ${profiles[0]}"
+    echo "$profile: $(echo "$hashes" | wc -l) samplers on backends ran, bits as in ${profiles[0]}"
 done

@@ -207,8 +207,8 @@ impl Backend {
         }
     }
 
-    /// Whether it gives the bits of the x86-64 sets with fused multiply-add: all backends of which this is true give the
-    /// same.
+    /// Whether it gives the bits of the x86-64 sets with fused multiply-add, as AArch64 does too: all backends of which this is
+    /// true give the same.
     #[must_use]
     pub fn is_fused(self) -> bool {
         match self.0 {

@@ -14,7 +14,7 @@ impl Isa for Portable {
     type Mask = f32x8;
     type Double = Pair<f64x4>;
     type Group = [f32; 8];
-    const FUSED: bool = cfg!(all(target_arch = "x86_64", target_feature = "fma"));
+    const FUSED: bool = cfg!(any(target_arch = "aarch64", all(target_arch = "x86_64", target_feature = "fma")));
 
     #[inline]
     fn splat(self, x: f32) -> f32x8 {

@@ -1,6 +1,6 @@
 //! Everything that can be asked of airlight, on little stack.
 
-use airlight::{Backend, Emitter, Emitters, Integral, Media, Medium, Nodes, Ray, Rays, Sampler, Samples, Strategy};
+use airlight::{Emitter, Emitters, Integral, Media, Medium, Nodes, Ray, Rays, Sampler, Samples, Strategy};
 
 /// The README's example is a test of the documentation.
 #[doc = include_str!("../../../README.md")]
@@ -39,7 +39,12 @@ impl Columns {
             let (t_min, length) = (uniform(), 9.0 * uniform());
             let t_max = if i % 11 == 0 { f32::INFINITY } else { t_min + length };
             let medium = [uniform(), uniform(), 2.0 * uniform() - 1.0];
-            let row = [origin, direction, position, normal].into_iter().flatten().chain([t_min, t_max]).chain(medium).chain([uniform()]);
+            let row = [origin, direction, position, normal]
+                .into_iter()
+                .flatten()
+                .chain([t_min, t_max])
+                .chain(medium)
+                .chain([uniform()]);
             for (column, value) in columns.0.iter_mut().zip(row) {
                 column.push(value);
             }
@@ -87,14 +92,13 @@ impl Hash {
     }
 }
 
-/// The hash of all that a strategy gives on a backend: samples with and without weights, of one and of several variates,
+/// The hash of all that a sampler gives, and of the integrals on its backend: samples with and without weights, of one and of several variates,
 /// densities, distribution functions, integrands, radiances, and one ray by itself.
 ///
 /// # Errors
 /// None: the columns have one length.
-pub fn everything(columns: &Columns, strategy: Strategy, backend: Backend) -> Result<u64, airlight::Error> {
+pub fn everything(columns: &Columns, sampler: &Sampler) -> Result<u64, airlight::Error> {
     let mut hash = Hash(0xcbf2_9ce4_8422_2325);
-    let sampler = Sampler::new(strategy).with_backend(backend);
     for (rays, per_ray) in [(RAYS, 1), (RAYS, VARIATES)].into_iter().chain(FEW) {
         let u = columns.variates(rays * per_ray);
         let (emitters, media) = (columns.emitters(rays), columns.media(rays));
@@ -119,11 +123,11 @@ pub fn everything(columns: &Columns, strategy: Strategy, backend: Backend) -> Re
         hash.add(&out);
         for &nodes in Nodes::ALL {
             let mut out = vec![0.0; u.len() / per_ray];
-            Integral::new(nodes).with_backend(backend).radiance(&rays, &emitters, &media, &mut out)?;
+            Integral::new(nodes).with_backend(sampler.backend()).radiance(&rays, &emitters, &media, &mut out)?;
             hash.add(&out);
         }
     }
-    hash.add(&one(&sampler)?);
+    hash.add(&one(sampler)?);
     Ok(hash.0)
 }
 
