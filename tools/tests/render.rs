@@ -455,7 +455,8 @@ fn a_comparison_has_every_strategy_and_a_sheet() {
 fn the_error_of_a_comparison_falls_with_the_samples() {
     let rmse = |spp: &str| {
         let arguments = ["--compare", "--size", "24x14", "--reference", "2048", "--scene", "dense", "--spp", spp];
-        let json = succeed(&[&arguments[..], &["--strategy", "product-5", "--json", "-"]].concat());
+        let independent = ["--strategy", "product-5", "--variates", "independent", "--json", "-"];
+        let json = succeed(&[&arguments[..], &independent].concat());
         let figures: Value = serde_json::from_str(&json).unwrap();
         assert_eq!(figures["results"][1]["strategy"], "product-5");
         figures["results"][1]["airlight_rmse"].as_f64().unwrap()
