@@ -15,7 +15,7 @@ pub use counts::Counts;
 pub use emitters::Emitters;
 pub(crate) use inputs::Inputs;
 pub use media::Media;
-pub(crate) use outputs::{Column, Outputs};
+pub(crate) use outputs::{Choices, Column, OfRuns, Outputs};
 pub(crate) use pads::{Pad, Pads, first_values};
 pub(crate) use rays::RayGroups;
 pub use rays::Rays;

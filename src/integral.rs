@@ -1,4 +1,4 @@
-//! The radiance of a ray, without a sample.
+//! The radiance of a ray, without a sample; and a choice of emitters by it.
 
 mod nodes;
 pub(crate) mod rule;
@@ -6,7 +6,7 @@ pub(crate) mod rule;
 pub use nodes::{Nodes, UnknownNodes};
 
 use crate::batch::{Counts, Emitters, Inputs, Media, Rays};
-use crate::road::{self, Quadrature};
+use crate::road::{self, Lights, Quadrature};
 use crate::scene::{Emitter, Medium, Ray};
 use crate::simd::Backend;
 use crate::{Error, Precision, Threads};
@@ -114,6 +114,74 @@ impl Integral {
         let inputs = Inputs::new(rays, emitters, media)?;
         inputs.check("radiance", radiance)?;
         Ok(road::travel::<road::Radiance>(self.threads, self.backend, self.quadrature(), &inputs, radiance))
+    }
+
+    /// Chooses one emitter of `table` for each ray, in proportion to its weight times the integral of this many nodes, which
+    /// is what it adds to the ray's radiance: writes its index, and the probability with which it was chosen. That is the
+    /// ratio of the two sums to rounding, so that over the table the probabilities add up to 1. [`Nodes::Four`] are enough.
+    ///
+    /// `weights` has one value for each emitter, such as the mean of its intensity over the channels; an emitter with the
+    /// weight 0 is never chosen. `u` has a variate in `[0, 1]` for each ray. The index increases with `u`, so that stratified
+    /// and low-discrepancy variates stay what they are. With the chosen emitter's sample, radiance is intensity times weight
+    /// of the sample over probability.
+    ///
+    /// [`Counts::sampled`] counts the rays with a choice: its probability is not 0. Where no emitter lights the ray, or adds
+    /// as much as f32's least number, it is *empty*. A variate outside `[0, 1]` makes its ray invalid. For an empty or invalid
+    /// ray index and probability are 0. Equal inputs give equal bits, wherever they stand in a batch and however many threads
+    /// there are.
+    ///
+    /// It takes the time of the integrals, and nothing is allocated. Of a table with more than 32 emitters as many as are in
+    /// a 32nd of it, or one more, are asked twice.
+    ///
+    /// ```
+    /// # use airlight::{Emitter, Emitters, Integral, Media, Medium, Nodes, Rays, Sampler, Samples, Strategy};
+    /// let (zero, one, t_max) = ([0.0; 2], [1.0; 2], [9.0; 2]);
+    /// let rays = Rays::new([&zero; 3], [&zero, &zero, &one], &zero, &t_max);
+    /// let lamps = [Emitter::point([0.0, 1.0, 3.0])?, Emitter::point([0.0, 2.0, 7.0])?];
+    /// let (watts, fog) = ([20.0, 100.0], Media::one(Medium::new(0.01, 0.1, 0.6)?));
+    ///
+    /// let (mut index, mut probability) = ([0; 2], zero);
+    /// let integral = Integral::new(Nodes::Four);
+    /// integral.choose(&rays, &lamps, &watts, &fog, &[0.1, 0.9], &mut index, &mut probability)?;
+    /// assert!(index == [0, 1] && (probability[0] + probability[1] - 1.0).abs() < 1e-6);
+    ///
+    /// let (mut t, mut pdf, mut weight) = (zero, zero, zero);
+    /// let mut samples = Samples::new(&mut t, &mut pdf).weight(&mut weight);
+    /// let of_rays = Emitters::table(&lamps, &index);
+    /// Sampler::new(Strategy::Product5).sample(&rays, &of_rays, &fog, &[0.5; 2], &mut samples)?;
+    /// let radiance = [0, 1].map(|i| watts[index[i] as usize] * weight[i] / probability[i]);
+    /// # assert!((radiance[0] / radiance[1] - 1.0).abs() < 0.1);
+    /// # Ok::<(), airlight::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Empty`] for a table without emitters. [`Error::Length`] if `weights` has another length than `table`, or a
+    /// column another one than `rays.origin[0]`. [`Error::Value`] for a weight that is negative or not finite, and for a table
+    /// of more than 2^24 emitters. [`Error::Unavailable`] for what has no kernel. Nothing is written then.
+    #[expect(clippy::too_many_arguments, reason = "columns in and columns out")]
+    pub fn choose(
+        &self,
+        rays: &Rays<'_>,
+        table: &[Emitter],
+        weights: &[f32],
+        media: &Media<'_>,
+        u: &[f32],
+        index: &mut [u32],
+        probability: &mut [f32],
+    ) -> Result<Counts, Error> {
+        let inputs = Inputs::with_table(rays, table, media)?;
+        // Whole numbers of f32.
+        let emitters = table.len() as f32;
+        Error::unless(table.len() <= 1 << f32::MANTISSA_DIGITS, "table.len()", emitters, "at most 2^24 emitters")?;
+        Error::unless_length("weights", weights.len(), table.len())?;
+        let is_weight = |weight: f32| (0.0..=f32::MAX).contains(&weight);
+        weights.iter().try_for_each(|&w| Error::unless(is_weight(w), "weights", w, "finite values >= 0"))?;
+        inputs.check("u", u)?;
+        Error::unless_length("index", index.len(), inputs.len())?;
+        inputs.check("probability", probability)?;
+        let lights = Lights { quadrature: self.quadrature(), table, weights };
+        let inputs = inputs.with(u, "u")?;
+        Ok(road::travel::<road::Choose<'_>>(self.threads, self.backend, lights, &inputs, (index, probability)))
     }
 
     /// [`radiance`](Self::radiance) of one ray; 0 if there is no kernel for the emitter or the medium.

@@ -6,6 +6,7 @@
 
 mod at_distance;
 mod blocks;
+mod choose;
 mod evaluate;
 mod radiance;
 mod sample;
@@ -13,6 +14,7 @@ mod sample;
 pub(crate) mod stages;
 
 pub(crate) use at_distance::{Cdf, Pdf};
+pub(crate) use choose::{Choose, Lights};
 pub(crate) use evaluate::Evaluate;
 pub(crate) use radiance::{Quadrature, Radiance};
 pub(crate) use sample::Sample;

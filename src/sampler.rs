@@ -122,6 +122,10 @@ impl Sampler {
     /// `u` and the columns of `samples` have the length of the batch, or k times that: then the k samples of a ray lie
     /// next to each other, those of ray `i` from `k i` on, and share the set-up of the ray's density.
     ///
+    /// Variates need not be independent: stratified and low-discrepancy ones are welcome, in a column of one variate per ray
+    /// as among the variates of one ray. The inverse is monotone, so that every interval of `u` is an interval of `t` with as
+    /// much of the density, and variates that are even in `[0, 1]` are as even along the ray.
+    ///
     /// `t` increases with `u`, but for rounding: from two variates closer than 2^-20 the larger one may come out first,
     /// by no more than 5e-6 of the CDF. What is written for an empty or invalid ray is 0. A variate outside `[0, 1]`
     /// makes its ray invalid. Equal inputs give equal bits, wherever they stand in a batch and however many threads

@@ -40,6 +40,13 @@ impl<'a> Inputs<'a> {
         Ok(inputs)
     }
 
+    /// The same for rays that each emitter of a table may light.
+    pub(crate) fn with_table(rays: &Rays<'a>, table: &[Emitter], media: &Media<'a>) -> Result<Self, Error> {
+        let [first, ..] = table else { return Err(Error::Empty { field: "table" }) };
+        table.iter().try_for_each(|emitter| Emitters::one(*emitter).0.check(0))?;
+        Self::new(rays, &Emitters::one(*first), media)
+    }
+
     /// One ray.
     pub(crate) fn one(rays: Rays<'a>, emitter: Emitter, medium: Medium, given: &'a [f32]) -> Self {
         let (emitters, media) = (Emitters::one(emitter), Media::one(medium));
@@ -83,6 +90,14 @@ impl<'a> Inputs<'a> {
         let emitters = Emitters(self.emitters.0.part(range.clone()));
         let media = Media(self.media.0.part(range.clone()));
         Self { rays: self.rays.part(range), emitters, media, given, ..*self }
+    }
+
+    /// The same rays with other emitters.
+    pub(crate) fn lit_by<'b>(&self, emitters: Emitters<'b>) -> Inputs<'b>
+    where
+        'a: 'b,
+    {
+        Inputs { emitters, ..*self }
     }
 
     /// The values of `range` alone, of one ray.

@@ -14,11 +14,14 @@ pub(crate) trait Outputs {
     /// Those of `range`, borrowed.
     fn part<'b>(out: &'b mut Self::At<'_>, range: Range<usize>) -> Self::At<'b>;
 
-    /// Has `write` write the values of a run, which for it lie next to each other.
-    fn of_run<R>(out: &mut Self::At<'_>, run: Run<'_>, write: impl FnOnce(Self::At<'_>) -> R) -> R;
-
     /// Has `write` write to pads, and takes from there as many values as there are.
     fn by_pads<R>(out: Self::At<'_>, write: impl FnOnce(Self::At<'_>) -> R) -> R;
+}
+
+/// Those of a task that has several values for a ray.
+pub(crate) trait OfRuns: Outputs {
+    /// Has `write` write the values of a run, which for it lie next to each other.
+    fn of_run<R>(out: &mut Self::At<'_>, run: Run<'_>, write: impl FnOnce(Self::At<'_>) -> R) -> R;
 }
 
 /// One column.
@@ -35,17 +38,43 @@ impl Outputs for Column {
         &mut out[range]
     }
 
+    fn by_pads<R>(out: &mut [f32], write: impl FnOnce(&mut [f32]) -> R) -> R {
+        let mut pad: Pad = [0.0; MOST_LANES];
+        let result = write(&mut pad);
+        out.copy_from_slice(&pad[..out.len()]);
+        result
+    }
+}
+
+impl OfRuns for Column {
     fn of_run<R>(out: &mut Self::At<'_>, run: Run<'_>, write: impl FnOnce(&mut [f32]) -> R) -> R {
         match run.together() {
             Some(range) => write(&mut out[range]),
             None => run.scatter(out, write),
         }
     }
+}
 
-    fn by_pads<R>(out: &mut [f32], write: impl FnOnce(&mut [f32]) -> R) -> R {
-        let mut pad: Pad = [0.0; MOST_LANES];
-        let result = write(&mut pad);
-        out.copy_from_slice(&pad[..out.len()]);
+/// Which entry of a table was chosen for each ray, and with what probability.
+pub(crate) struct Choices;
+
+impl Outputs for Choices {
+    type At<'a> = (&'a mut [u32], &'a mut [f32]);
+
+    fn split_at<'a>((index, probability): Self::At<'a>, k: usize) -> (Self::At<'a>, Self::At<'a>) {
+        let (index, index_rest) = index.split_at_mut(k);
+        let (probability, probability_rest) = probability.split_at_mut(k);
+        ((index, probability), (index_rest, probability_rest))
+    }
+
+    fn part<'b>((index, probability): &'b mut Self::At<'_>, range: Range<usize>) -> Self::At<'b> {
+        (&mut index[range.clone()], &mut probability[range])
+    }
+
+    fn by_pads<R>((index, probability): Self::At<'_>, write: impl FnOnce(Self::At<'_>) -> R) -> R {
+        let mut pad = [0; MOST_LANES];
+        let result = Column::by_pads(probability, |probability| write((&mut pad, probability)));
+        index.copy_from_slice(&pad[..index.len()]);
         result
     }
 }

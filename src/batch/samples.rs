@@ -1,6 +1,6 @@
 //! Where samples are written.
 
-use super::{Column, Outputs, Pad, Run};
+use super::{Column, OfRuns, Outputs, Pad, Run};
 use crate::simd::MOST_LANES;
 use core::ops::Range;
 
@@ -80,18 +80,6 @@ impl Outputs for OfSamples {
         }
     }
 
-    fn of_run<R>(out: &mut Samples<'_>, run: Run<'_>, write: impl FnOnce(Samples<'_>) -> R) -> R {
-        if let Some(range) = run.together() {
-            return write(Self::part(out, range));
-        }
-        let Samples { t, pdf, weight, r } = out;
-        run.scatter(t, |t| {
-            run.scatter(pdf, |pdf| {
-                optional(run, weight, |weight| optional(run, r, |r| write(Samples { t, pdf, weight, r })))
-            })
-        })
-    }
-
     fn by_pads<R>(out: Samples<'_>, write: impl FnOnce(Samples<'_>) -> R) -> R {
         let Samples { t, pdf, weight, r } = out;
         Column::by_pads(t, |t| {
@@ -109,6 +97,20 @@ impl Outputs for OfSamples {
                     }
                 }
                 result
+            })
+        })
+    }
+}
+
+impl OfRuns for OfSamples {
+    fn of_run<R>(out: &mut Samples<'_>, run: Run<'_>, write: impl FnOnce(Samples<'_>) -> R) -> R {
+        if let Some(range) = run.together() {
+            return write(Self::part(out, range));
+        }
+        let Samples { t, pdf, weight, r } = out;
+        run.scatter(t, |t| {
+            run.scatter(pdf, |pdf| {
+                optional(run, weight, |weight| optional(run, r, |r| write(Samples { t, pdf, weight, r })))
             })
         })
     }

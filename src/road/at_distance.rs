@@ -3,7 +3,7 @@
 use super::blocks::{Block, SetUps, Tally, Wanted, for_each_block, for_each_run, set_up};
 use super::{Method, OfDensity, Task, by_strategy};
 use crate::Precision;
-use crate::batch::{Column, Counts, Inputs, Outputs, Turn};
+use crate::batch::{Column, Counts, Inputs, OfRuns, Turn};
 use crate::density::{Density, Kind, SetUp};
 use crate::geometry::{Geometry, Point};
 use crate::simd::{Isa, Lanes, Machine, Room, none};

@@ -76,6 +76,11 @@ pub(super) struct Wanted {
     pub(super) records: usize,
 }
 
+/// How many lane groups a block has, unless the chunk ends.
+pub(super) fn groups_at_once<I: Isa>() -> usize {
+    (MOST_RAYS / I::V::N).clamp(1, GROUPS)
+}
+
 /// The blocks of a chunk, each visited once, cut where the records of the density are large.
 pub(super) fn for_each_block<I: Isa>(
     isa: I,
@@ -83,7 +88,7 @@ pub(super) fn for_each_block<I: Isa>(
     wanted: Wanted,
     mut visit: impl FnMut(&Block<'_, I>),
 ) {
-    let (at_once, count) = ((MOST_RAYS / I::V::N).clamp(1, GROUPS), inputs.len() / I::V::N);
+    let (at_once, count) = (groups_at_once::<I>(), inputs.len() / I::V::N);
     let each = inputs.emitters.0.differs();
     let mut places = Places::new();
     isa.vectorize::<Foot<I>, _>(

@@ -3,7 +3,7 @@
 use super::blocks::{Block, Tally, Wanted, for_each_block, for_each_run};
 use super::{Method, Task};
 use crate::Precision;
-use crate::batch::{Column, Counts, Inputs, Outputs, Turn};
+use crate::batch::{Column, Counts, Inputs, OfRuns, Turn};
 use crate::geometry::Extent;
 use crate::integrand::{MediumLanes, integrand_r2};
 use crate::simd::{GROUPS, Isa, Kernel, Lanes, Machine, none};

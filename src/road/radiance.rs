@@ -1,7 +1,7 @@
 //! The integral of the integrand along each ray.
 
 use super::Task;
-use super::blocks::{Tally, Wanted, for_each_block};
+use super::blocks::{Block, Tally, Wanted, for_each_block};
 use crate::batch::{Column, Counts, Inputs};
 use crate::geometry::Extent;
 use crate::integral::rule::Rule;
@@ -45,25 +45,57 @@ impl<const K: usize> Kernel for OnGroups<'_, K> {
     fn run<I: Isa>(self, isa: I) -> Counts {
         let Self { precision, inputs, out } = self;
         let mut tally = Tally::new(isa, inputs);
-        for_each_block(isa, inputs, Wanted { precision, extent: Extent::Cosine, records: GROUPS }, |block| {
+        for_each_block(isa, inputs, of_integral(precision), |block| {
             isa.vectorize::<Rule<K>, _>(
                 #[cfg_attr(optimized, inline(always))]
                 || {
-                    let (rays, media) = (inputs.ray_groups::<I>(), block.media.groups(isa));
-                    let mut medium = media.media(isa, 0);
-                    let geometries = block.geometries();
                     let out = &mut I::groups_mut(out)[block.groups.clone()];
-                    for (record, out) in out.iter_mut().enumerate() {
-                        let (group, geometry) = (block.groups.start + record, geometries.get(record));
-                        media.renew(isa, record, &mut medium);
-                        let (valid, lit) = (geometry.lit.valid & medium.valid, geometry.lit(isa));
-                        let radiance = Rule::<K>::radiance(isa, &rays.lanes(isa, group), geometry, &medium);
-                        isa.store(I::V::only(valid & lit, radiance.min(isa.splat(f32::MAX))), out);
-                        tally.add(valid, valid & lit, none(isa));
-                    }
+                    for_each_radiance::<I, K>(
+                        isa,
+                        block,
+                        #[cfg_attr(optimized, inline(always))]
+                        |record, Integrated { radiance, valid, lit }| {
+                            isa.store(radiance, &mut out[record]);
+                            tally.add(valid, lit, none(isa));
+                        },
+                    );
                 },
             );
         });
         tally.counts(isa, inputs)
+    }
+}
+
+/// What an integral wants of the geometry.
+pub(super) fn of_integral(precision: Precision) -> Wanted {
+    Wanted { precision, extent: Extent::Cosine, records: GROUPS }
+}
+
+/// The integrals of a lane group.
+pub(super) struct Integrated<I: Isa> {
+    /// \[1/m^2\]; 0 unless it is lit.
+    pub(super) radiance: I::V,
+    pub(super) valid: I::Mask,
+    /// Which of the valid ones are lit.
+    pub(super) lit: I::Mask,
+}
+
+/// The integrals of a block, one lane group after the other.
+#[cfg_attr(optimized, inline(always))]
+pub(super) fn for_each_radiance<I: Isa, const K: usize>(
+    isa: I,
+    block: &Block<'_, I>,
+    mut visit: impl FnMut(usize, Integrated<I>),
+) {
+    let (rays, media) = (block.inputs.ray_groups::<I>(), block.media.groups(isa));
+    let mut medium = media.media(isa, 0);
+    let geometries = block.geometries();
+    for record in 0..block.groups.len() {
+        let (group, geometry) = (block.groups.start + record, geometries.get(record));
+        media.renew(isa, record, &mut medium);
+        let valid = geometry.lit.valid & medium.valid;
+        let lit = valid & geometry.lit(isa);
+        let radiance = Rule::<K>::radiance(isa, &rays.lanes(isa, group), geometry, &medium);
+        visit(record, Integrated { radiance: I::V::only(lit, radiance.min(isa.splat(f32::MAX))), valid, lit });
     }
 }

@@ -3,7 +3,7 @@
 use super::blocks::{AHEAD, Block, Geometries, SetUps, Tally, Wanted, for_each_block, for_each_run, set_up};
 use super::{Method, OfDensity, Out, Task, by_strategy};
 use crate::Precision;
-use crate::batch::{Counts, Inputs, OfSamples, Outputs, RayGroups, RowGroups, Samples, Turn};
+use crate::batch::{Counts, Inputs, OfRuns, OfSamples, RayGroups, RowGroups, Samples, Turn};
 use crate::density::{Density, Kind, SetUp};
 use crate::geometry::{Extent, Geometry, Point};
 use crate::integrand::{MediumLanes, integrand_r2};

@@ -7,7 +7,7 @@ use super::blocks::{SetUps, Wanted, for_each_block, for_each_run, set_up};
 use super::sample::invert;
 use super::{Method, OfDensity, Task, by_strategy};
 use crate::Precision;
-use crate::batch::{Counts, Inputs, Outputs, Run};
+use crate::batch::{Counts, Inputs, Outputs};
 use crate::density::{Density, Kind};
 use crate::simd::{Isa, Machine, Records, Room};
 use core::hint::black_box;
@@ -37,10 +37,6 @@ impl Outputs for Stage {
 
     fn part(out: &mut Self, _: Range<usize>) -> Self {
         *out
-    }
-
-    fn of_run<R>(out: &mut Self, _: Run<'_>, write: impl FnOnce(Self) -> R) -> R {
-        write(*out)
     }
 
     fn by_pads<R>(out: Self, write: impl FnOnce(Self) -> R) -> R {

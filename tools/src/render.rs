@@ -18,6 +18,7 @@ use airlight_tools::renderer::emitter_choice::EmitterChoice;
 use airlight_tools::renderer::picture::{Picture, Size};
 use airlight_tools::renderer::scene::Scene;
 use airlight_tools::renderer::scenes::Name;
+use airlight_tools::renderer::variate::Sequence;
 use anyhow::{Context, Result, ensure};
 use serde::Serialize;
 use std::fmt::Display;
@@ -42,9 +43,12 @@ pub(crate) struct Args {
     /// Sample every ray from the transmittance too, and combine the two samples by the balance heuristic
     #[arg(long)]
     mis: bool,
-    /// Choice of the light that a ray gathers: uniform, or radiance for the integrals with 4 nodes
-    #[arg(long, value_name = "NAME", default_value_t = EmitterChoice::Radiance)]
+    /// Choice of the light that a ray gathers: uniform, or choose for the integrals with 4 nodes
+    #[arg(long, value_name = "NAME", default_value_t)]
     lights: EmitterChoice,
+    /// Random numbers of the passes: sobol for an Owen-scrambled Sobol sequence of each pixel, or independent
+    #[arg(long, value_name = "NAME", default_value_t)]
+    variates: Sequence,
     /// Passes, each of which takes one sample of every pixel [default: 64]
     #[arg(long, value_name = "N", value_parser = arguments::positive, conflicts_with = "time")]
     spp: Option<usize>,
@@ -127,7 +131,7 @@ fn deliver<F: Serialize + Display>(
 
 impl Args {
     fn settings(&self, sampler: Sampler) -> Settings {
-        Settings { sampler, mis: self.mis, choice: self.lights, seed: self.seed }
+        Settings { sampler, mis: self.mis, choice: self.lights, variates: self.variates, seed: self.seed }
     }
 
     fn budget(&self) -> Budget {
@@ -143,6 +147,7 @@ impl Args {
             height: self.size.height,
             mis: self.mis,
             lights: self.lights.name(),
+            variates: self.variates.name(),
             seed: self.seed,
             threads: rayon::current_num_threads(),
         }

@@ -31,7 +31,7 @@ use self::picture::Size;
 use self::scattering::Scattering;
 use self::scene::Scene;
 use self::shadow::ShadowQueue;
-use self::variate::{Dimension, Variates};
+use self::variate::{Dimension, Sequence, Variates};
 use airlight::{Error, Sampler};
 use std::time::{Duration, Instant};
 
@@ -47,7 +47,9 @@ pub struct Settings {
     pub mis: bool,
     /// How the emitter that lights a ray is chosen.
     pub choice: EmitterChoice,
-    /// Which random numbers.
+    /// How the random numbers of the passes belong together.
+    pub variates: Sequence,
+    /// Which ones.
     pub seed: u64,
 }
 
@@ -56,6 +58,7 @@ pub struct Settings {
 pub struct Renderer<'a> {
     scene: &'a Scene,
     view: View,
+    variates: Sequence,
     seed: u64,
     choice: Choice,
     scattering: Scattering,
@@ -75,8 +78,9 @@ impl<'a> Renderer<'a> {
         Self {
             scene,
             view: View::new(&scene.camera, size),
+            variates: settings.variates,
             seed: settings.seed,
-            choice: Choice::new(settings.choice),
+            choice: Choice::new(settings.choice, scene, settings.sampler.precision()),
             scattering: Scattering::new(settings.sampler, settings.mis),
             rays: RayQueue::default(),
             hits: Vec::new(),
@@ -105,7 +109,7 @@ impl<'a> Renderer<'a> {
     /// None but those of malformed calls of airlight.
     pub fn pass(&mut self, film: &mut Film) -> Result<(), Error> {
         let pixels = film.size().pixels();
-        let variates = Variates { seed: self.seed, pass: film.passes(), pixels };
+        let variates = Variates { sequence: self.variates, seed: self.seed, pass: film.passes(), pixels };
         for first in (0..pixels).step_by(WAVE) {
             self.wave(first, WAVE.min(pixels - first), &variates, film)?;
         }

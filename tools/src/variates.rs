@@ -2,10 +2,15 @@
 
 /// Fills `u` with the variates number `first`, `first + 1`, ... of `seed`: multiples of 2^-24 in `[0, 1)`.
 pub fn fill(seed: u64, first: u64, u: &mut [f32]) {
-    let key = mix(seed ^ GOLDEN);
     for (index, u) in (first..).zip(u) {
-        *u = uniform(mix(key.wrapping_add(index.wrapping_mul(GOLDEN))));
+        *u = uniform(bits(seed, index));
     }
+}
+
+/// The random bits number `index` of `seed`.
+#[must_use]
+pub fn bits(seed: u64, index: u64) -> u64 {
+    mix(mix(seed ^ GOLDEN).wrapping_add(index.wrapping_mul(GOLDEN)))
 }
 
 /// The odd number nearest to 2^64 divided by the golden ratio: the step of SplitMix64.

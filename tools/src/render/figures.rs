@@ -15,6 +15,7 @@ pub(super) struct Job {
     pub(super) height: usize,
     pub(super) mis: bool,
     pub(super) lights: &'static str,
+    pub(super) variates: &'static str,
     pub(super) seed: u64,
     pub(super) threads: usize,
 }
@@ -60,9 +61,13 @@ impl Run {
 
 impl fmt::Display for Job {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { scene, width, height, lights, seed, threads, .. } = self;
+        let Self { scene, width, height, lights, variates, seed, threads, .. } = self;
         let mis = if self.mis { ", combined with transmittance" } else { "" };
-        write!(f, "{scene}: {width}x{height} pixels{mis}; lights chosen by {lights}; seed {seed}, threads {threads}")
+        let lights = format_args!("lights chosen by {lights}");
+        write!(
+            f,
+            "{scene}: {width}x{height} pixels{mis}; {lights}; {variates} variates, seed {seed}, threads {threads}"
+        )
     }
 }
 

@@ -89,17 +89,6 @@ impl RayQueue {
         self.t_max.is_empty()
     }
 
-    /// Every so many-th ray of another queue, from the first on.
-    pub fn thin(&mut self, queue: &Self, step: usize) {
-        let count = queue.len().div_ceil(step);
-        self.origin.fill(count, |i| queue.origin.at(step * i));
-        self.direction.fill(count, |i| queue.direction.at(step * i));
-        for (column, all) in [(&mut self.t_min, &queue.t_min), (&mut self.t_max, &queue.t_max)] {
-            column.clear();
-            column.extend(all.iter().step_by(step));
-        }
-    }
-
     /// The point of ray `i` at `t`.
     #[must_use]
     pub fn point(&self, i: usize, t: f32) -> Vec3 {

@@ -65,9 +65,12 @@ impl Scattering {
     /// but the intensity and the probability of the light.
     pub fn light(&self, scene: &Scene, rays: &RayQueue, choice: &Choice, shadows: &mut ShadowQueue) {
         shadows.fill(rays.len(), |i| {
-            let light = choice.light[i];
+            let (light, probability) = (choice.light[i], choice.probability[i]);
+            if probability == 0.0 {
+                return ShadowRay::default();
+            }
             let intensity = scene.lights[light as usize].intensity;
-            let radiance = intensity * (self.weight[i] / choice.probability[i]);
+            let radiance = intensity * (self.weight[i] / probability);
             ShadowRay { from: rays.point(i, self.t[i]), light, radiance }
         });
     }
