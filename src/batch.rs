@@ -26,7 +26,7 @@ pub(crate) use source::{Entry, Gathered, RowGroups, Rows};
 
 use crate::simd::Isa;
 
-/// So many rays are in a block at most.
+/// The most rays of a block.
 pub(crate) const MOST_RAYS: usize = 256;
 
 /// The first `count` groups of a column.

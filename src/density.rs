@@ -1,4 +1,4 @@
-//! What every sampled density is to the kernels: a set-up, an inverse and a pdf.
+//! What every sampled density is to the kernels: a set-up, a draw, a pdf and a CDF.
 
 use crate::geometry::{Extent, Geometry, Point, RayLanes};
 use crate::integrand::MediumLanes;

@@ -12,7 +12,7 @@
 //! | `batch` | [`Rays`], [`Emitters`], [`Media`], [`Samples`]: borrowed columns of many |
 //! | `geometry` | `h`, `t_h`, the lit interval and its ends, without cancellation: in f32, where that is not enough in f64 |
 //! | `expansion` | a factor of the integrand as a polynomial of the angle |
-//! | `strategy` | one file per density: its set-up, its inverse, its pdf |
+//! | `strategy` | one file per density: its set-up, its draw, its pdf, its CDF |
 //! | `inversion` | Chebyshev's method in a bracket |
 //! | `integrand` | `mu_s T rho N` for the weight |
 //! | `integral` | the radiance of a ray without a sample, by Gauss and Legendre's rule |

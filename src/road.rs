@@ -147,7 +147,7 @@ pub(crate) fn travel_one<T: Task>(
     given: &[f32],
     out: Out<'_, T>,
 ) -> Counts {
-    if !emitter.is_known() || !medium.is_known() {
+    if !emitter.is_supported() || !medium.is_supported() {
         return Counts::default();
     }
     let (origin, direction, t_min, t_max) = (ray.origin(), ray.direction(), ray.t_min(), ray.t_max());

@@ -68,9 +68,9 @@ impl Entry<6> for Emitter {
     ];
     const TABLE: &'static str = "emitters.table";
     const INDEX: &'static str = "emitters.index";
-    const UNKNOWN: &'static str = "spots";
+    const UNSUPPORTED: &'static str = "spots";
 
-    fn is_known(&self) -> bool {
+    fn is_supported(&self) -> bool {
         self.cone().is_none()
     }
 

@@ -76,7 +76,7 @@ impl<'a> Inputs<'a> {
     }
 
     pub(crate) fn len(&self) -> usize {
-        self.rays.origin[0].len()
+        self.rays.len()
     }
 
     /// How many values are written for them.

@@ -32,6 +32,8 @@ impl<'a> Media<'a> {
     /// let air = Media::each(&mu_a, &mu_s, &g);
     /// ```
     #[must_use]
+    #[doc(alias = "sigma_a")]
+    #[doc(alias = "sigma_s")]
     pub fn each(mu_a: &'a [f32], mu_s: &'a [f32], g: &'a [f32]) -> Self {
         Self(Source::Each([mu_a, mu_s, g]))
     }
@@ -55,9 +57,9 @@ impl Entry<3> for Medium {
     const COLUMNS: [&'static str; 3] = ["media.mu_a", "media.mu_s", "media.g"];
     const TABLE: &'static str = "media.table";
     const INDEX: &'static str = "media.index";
-    const UNKNOWN: &'static str = "coloured media";
+    const UNSUPPORTED: &'static str = "coloured media";
 
-    fn is_known(&self) -> bool {
+    fn is_supported(&self) -> bool {
         self.channels() == 1
     }
 
@@ -75,7 +77,7 @@ impl<I: Isa> RowGroups<'_, I, 3> {
         MediumLanes::new(isa, mu_a, mu_s, g)
     }
 
-    /// Those of another group than that of `lanes`.
+    /// Loads the media of lane group `index` if they differ from ray to ray.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn renew(&self, isa: I, index: usize, lanes: &mut MediumLanes<I>) {
         if self.differ() {

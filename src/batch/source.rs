@@ -13,10 +13,10 @@ pub(crate) trait Entry<const K: usize>: Copy {
     const INDEX: &'static str;
 
     /// What of this kind has no kernel.
-    const UNKNOWN: &'static str;
+    const UNSUPPORTED: &'static str;
 
     /// Whether the kernels know such a thing.
-    fn is_known(&self) -> bool;
+    fn is_supported(&self) -> bool;
 
     /// Its numbers, in the order of the columns.
     fn row(&self) -> [f32; K];
@@ -79,7 +79,11 @@ impl<'a, T: Entry<K>, const K: usize> Source<'a, T, K> {
 
 /// `Ok` if the kernels know all of them.
 fn known<'a, T: Entry<K> + 'a, const K: usize>(mut entries: impl Iterator<Item = &'a T>) -> Result<(), Error> {
-    if entries.all(T::is_known) { Ok(()) } else { Err(Error::Unavailable { field: T::UNKNOWN, strategy: None }) }
+    if entries.all(T::is_supported) {
+        Ok(())
+    } else {
+        Err(Error::Unavailable { field: T::UNSUPPORTED, strategy: None })
+    }
 }
 
 /// Room for the columns of some rays.
@@ -124,7 +128,7 @@ impl<'r, const K: usize> Rows<'r, K> {
         }
     }
 
-    /// Their lane groups.
+    /// Their lane groups. Spelt out, as a closure that is not inlined costs more than the load.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn groups<I: Isa>(&self, isa: I) -> RowGroups<'r, I, K> {
         match *self {

@@ -228,7 +228,7 @@ impl<I: Isa> Tally<I> {
 pub(super) const AHEAD: usize = 2 * GROUPS;
 
 /// The geometry of some groups in f32, that of hard lanes again in f64.
-fn in_single<I: Isa, const EXACT: bool, const FOOT: bool, const COSINE: bool, const EACH: bool>(
+fn in_single<I: Isa, const EXACT: bool, const FOOT: bool, const COSINE: bool, const DIFFER: bool>(
     isa: I,
     inputs: &Inputs<'_>,
     emitters: Rows<'_, 6>,
@@ -247,7 +247,7 @@ fn in_single<I: Isa, const EXACT: bool, const FOOT: bool, const COSINE: bool, co
             let (mut every, mut any) = (!none(isa), none(isa));
             for group in groups.clone() {
                 rays.prefetch(isa, group, AHEAD);
-                if EACH {
+                if DIFFER {
                     emitter = emitters.emitters(isa, group - groups.start);
                 }
                 let ray = rays.lanes(isa, group);
@@ -274,7 +274,7 @@ fn in_single<I: Isa, const EXACT: bool, const FOOT: bool, const COSINE: bool, co
     }
     // Apart: the two together do not fit the registers.
     if FOOT {
-        every = find_feet::<I, EXACT, COSINE, EACH>(isa, inputs, emitters, groups.start, places);
+        every = find_feet::<I, EXACT, COSINE, DIFFER>(isa, inputs, emitters, groups.start, places);
     }
     if !every {
         rescue::<I, FOOT, COSINE>(isa, inputs, emitters, groups.start, places);
@@ -282,7 +282,7 @@ fn in_single<I: Isa, const EXACT: bool, const FOOT: bool, const COSINE: bool, co
 }
 
 /// The feet of the perpendiculars after the lit intervals; whether all lanes are easy.
-fn find_feet<I: Isa, const EXACT: bool, const COSINE: bool, const EACH: bool>(
+fn find_feet<I: Isa, const EXACT: bool, const COSINE: bool, const DIFFER: bool>(
     isa: I,
     inputs: &Inputs<'_>,
     emitters: Rows<'_, 6>,
@@ -301,7 +301,7 @@ fn find_feet<I: Isa, const EXACT: bool, const COSINE: bool, const EACH: bool>(
             let mut feet = places.feet.start();
             let mut every = !none(isa);
             for (record, lit) in lits.iter_mut().enumerate() {
-                if EACH {
+                if DIFFER {
                     emitter = emitters.emitters(isa, record);
                 }
                 let (ray, excess, cosine) = (rays.lanes(isa, start + record), excesses[record], &cosines[record]);

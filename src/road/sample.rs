@@ -64,9 +64,9 @@ impl<const WITH_WEIGHT_OR_R: bool> OfDensity for Drawing<WITH_WEIGHT_OR_R> {
             let set_ups = set_up::<I, D, D::On<I>>(isa, block, &mut set_ups);
             for_each_run(block, |run| {
                 let u = run.values(inputs.given, &mut pad);
-                let places = invert::<I, D>(isa, block, set_ups, run.turns, u, &mut places);
+                let places = draw::<I, D>(isa, block, set_ups, run.turns, u, &mut places);
                 OfSamples::of_run(&mut out, run, |mut out| {
-                    let pass = Draw::<I, D> { block, set_ups, turns: run.turns, places };
+                    let pass = Points::<I, D> { block, set_ups, turns: run.turns, places };
                     if WITH_WEIGHT_OR_R {
                         let points = pass.points(isa, &mut points, &mut out, &mut tally);
                         weigh(isa, block, run.turns, points, &mut out);
@@ -161,20 +161,20 @@ impl<I: Isa> Stations<'_, I> {
         self.media.renew(isa, record, &mut self.medium);
         let ray = self.rays.lanes(isa, group);
         let set_up = SetUp::<I, D::On<I>>::new(isa, &ray, geometry, &self.medium);
-        let inverted = Inverted::new(isa, geometry, &set_up, &self.u[record]);
-        draw_one::<I, D>(isa, geometry, &set_up, &inverted, t, pdf, tally)
+        let placed = Placed::new(isa, geometry, &set_up, &self.u[record]);
+        point_one::<I, D>(isa, geometry, &set_up, &placed, t, pdf, tally)
     }
 }
 
 /// Where a variate leads.
 #[derive(Clone, Copy)]
-pub(super) struct Inverted<I: Isa, P> {
+pub(super) struct Placed<I: Isa, P> {
     place: P,
     /// Which lanes have a ray, a medium and a variate.
     valid: I::Mask,
 }
 
-impl<I: Isa, P> Inverted<I, P> {
+impl<I: Isa, P> Placed<I, P> {
     #[cfg_attr(optimized, inline(always))]
     fn new<D: Density<I, Place = P>>(isa: I, geometry: Geometry<'_, I>, set_up: &SetUp<I, D>, u: &I::Group) -> Self {
         isa.prefetch(u, AHEAD);
@@ -185,17 +185,17 @@ impl<I: Isa, P> Inverted<I, P> {
 }
 
 /// By the density `D`.
-pub(super) type InvertedBy<I, D> = Inverted<I, <<D as Kind>::On<I> as Density<I>>::Place>;
+pub(super) type PlacedBy<I, D> = Placed<I, <<D as Kind>::On<I> as Density<I>>::Place>;
 
 /// The variates of some turns through the inverse of the CDF.
-pub(super) fn invert<'r, I: Isa, D: Kind>(
+pub(super) fn draw<'r, I: Isa, D: Kind>(
     isa: I,
     block: &Block<'_, I>,
     set_ups: &[SetUp<I, D::On<I>>],
     turns: &[Turn],
     u: &[f32],
-    records: &'r mut Records<InvertedBy<I, D>>,
-) -> &'r [InvertedBy<I, D>] {
+    records: &'r mut Records<PlacedBy<I, D>>,
+) -> &'r [PlacedBy<I, D>] {
     isa.vectorize::<D, _>(
         #[cfg_attr(optimized, inline(always))]
         || {
@@ -206,7 +206,7 @@ pub(super) fn invert<'r, I: Isa, D: Kind>(
                 #[cfg_attr(optimized, inline(always))]
                 |index| {
                     let record = turns[index].record;
-                    Inverted::new(isa, geometries.get(record), &set_ups[record], &u[index])
+                    Placed::new(isa, geometries.get(record), &set_ups[record], &u[index])
                 },
             )
         },
@@ -223,14 +223,14 @@ struct Sampled<I: Isa> {
 }
 
 /// The points of the ray to which variates lead, written as `t` and `pdf`.
-struct Draw<'p, I: Isa, D: Kind> {
+struct Points<'p, I: Isa, D: Kind> {
     block: &'p Block<'p, I>,
     set_ups: &'p [SetUp<I, D::On<I>>],
     turns: &'p [Turn],
-    places: &'p [InvertedBy<I, D>],
+    places: &'p [PlacedBy<I, D>],
 }
 
-impl<I: Isa, D: Kind> Draw<'_, I, D> {
+impl<I: Isa, D: Kind> Points<'_, I, D> {
     fn write(&self, isa: I, out: &mut Samples<'_>, tally: &mut Tally<I>) {
         isa.vectorize::<D, _>(
             #[cfg_attr(optimized, inline(always))]
@@ -239,7 +239,7 @@ impl<I: Isa, D: Kind> Draw<'_, I, D> {
                 let (places, set_ups) = (&self.places[..t.len()], &self.set_ups[..self.block.groups.len()]);
                 for (((turn, place), t), pdf) in self.turns.iter().zip(places).zip(t).zip(pdf) {
                     let geometry = geometries.get(turn.record);
-                    draw_one::<I, D>(isa, geometry, &set_ups[turn.record], place, t, pdf, tally);
+                    point_one::<I, D>(isa, geometry, &set_ups[turn.record], place, t, pdf, tally);
                 }
             },
         );
@@ -266,7 +266,7 @@ impl<I: Isa, D: Kind> Draw<'_, I, D> {
                         let record = self.turns[index].record;
                         let (set_up, place) = (&set_ups[record], &places[index]);
                         let (t, pdf) = (&mut t[index], &mut pdf[index]);
-                        draw_one::<I, D>(isa, geometries.get(record), set_up, place, t, pdf, tally)
+                        point_one::<I, D>(isa, geometries.get(record), set_up, place, t, pdf, tally)
                     },
                 )
             },
@@ -282,16 +282,16 @@ impl<I: Isa, D: Kind> Draw<'_, I, D> {
 }
 
 #[cfg_attr(optimized, inline(always))]
-fn draw_one<I: Isa, D: Kind>(
+fn point_one<I: Isa, D: Kind>(
     isa: I,
     geometry: Geometry<'_, I>,
     set_up: &SetUp<I, D::On<I>>,
-    inverted: &InvertedBy<I, D>,
+    placed: &PlacedBy<I, D>,
     t: &mut I::Group,
     pdf: &mut I::Group,
     tally: &mut Tally<I>,
 ) -> Sampled<I> {
-    let (SetUp { density, lit, .. }, Inverted { place, valid }) = (set_up, inverted);
+    let (SetUp { density, lit, .. }, Placed { place, valid }) = (set_up, placed);
     isa.prefetch(t, AHEAD);
     isa.prefetch(pdf, AHEAD);
     let sampled = *valid & *lit;

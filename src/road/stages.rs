@@ -4,7 +4,7 @@
 //! variate per ray the whole road has set-up, inversion and output in one pass without records: less than their sum.
 
 use super::blocks::{SetUps, Wanted, for_each_block, for_each_run, set_up};
-use super::sample::invert;
+use super::sample::draw;
 use super::{Method, OfDensity, Task, by_strategy};
 use crate::Precision;
 use crate::batch::{Counts, Inputs, Outputs};
@@ -64,7 +64,7 @@ impl OfDensity for UpTo {
                 if stage == Stage::Inversion {
                     for_each_run(block, |run| {
                         let u = run.values(inputs.given, &mut pad);
-                        black_box(invert::<I, D>(isa, block, set_ups, run.turns, u, &mut places));
+                        black_box(draw::<I, D>(isa, block, set_ups, run.turns, u, &mut places));
                     });
                 }
             }
