@@ -121,8 +121,9 @@ impl Integral {
     /// ratio of the two sums to rounding, so that over the table the probabilities add up to 1. [`Nodes::Four`] are enough.
     ///
     /// `weights` has one value for each emitter, such as the mean of its intensity over the channels; an emitter with the
-    /// weight 0 is never chosen. `u` has a variate in `[0, 1]` for each ray. The index increases with `u`, so that stratified
-    /// and low-discrepancy variates stay what they are. With the chosen emitter's sample, radiance is intensity times weight
+    /// weight 0 is never chosen. `u` has a variate in `[0, 1]` for each ray; it must be independent of those that distances are
+    /// then sampled with, or the estimate is biased. The index increases with `u`, so that stratified and low-discrepancy
+    /// variates keep their order. With the chosen emitter's sample, radiance is intensity times weight
     /// of the sample over probability.
     ///
     /// [`Counts::sampled`] counts the rays with a choice: its probability is not 0. Where no emitter lights the ray, or adds

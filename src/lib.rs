@@ -64,7 +64,7 @@
 //! ```
 //!
 //! [`Integral::radiance`] does the same for the rays of a picture at once. With occluders, take the integral times the share
-//! of the light that is visible: the sum of `V w` over that of `w`, of samples with the weights `w`.
+//! of the light that is visible: the sum of the weights of the visible samples over that of all.
 //!
 //! Which strategy to take: see [`Strategy`].
 //!

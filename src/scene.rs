@@ -110,6 +110,8 @@ impl Emitter {
     /// `cos_inner`, not at all beyond that of `cos_outer`, and smoothly in between. [There](Cone) stands how the spots of
     /// Blender, glTF and pbrt are given this way.
     ///
+    /// The [oracle](crate::oracle) has spots; the kernels do not yet, and calls with one return [`Error::Unavailable`].
+    ///
     /// # Errors
     /// [`Error::Value`] if a coordinate is NaN or larger than [`FARTHEST`] in size, if the length of the axis is not 1
     /// within [`UNIT_TOLERANCE`] (its exact length does not matter), or unless `0 <= cos_outer <= cos_inner <= 1`.
@@ -175,6 +177,9 @@ impl Medium {
 
     /// A medium of 1, 3 or 4 channels, with `mu_a` and `mu_s` \[1/m\] of each and one mean cosine `g` \[1\]. Of one channel
     /// it is that of [`new`](Self::new).
+    ///
+    /// The oracle has coloured media, as [`Coloured`](crate::oracle::Coloured); the kernels do not yet, and calls with one
+    /// return [`Error::Unavailable`].
     ///
     /// # Errors
     /// [`Error::Value`] if there are not 1, 3 or 4 channels, or where `new` has it, for any channel; also unless the means

@@ -5,7 +5,7 @@
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Counts {
-    /// Rays with a sample.
+    /// Rays with a sample, also where a medium that does not scatter gives it the weight 0.
     pub sampled: usize,
     /// Valid rays without one: `t_min = t_max`, or no point of the ray is lit, or less than f32 can say anything about: an
     /// interval shorter than 1e-18 m; for all densities but the transmittance also one shorter than about 1e-36 of `r^2`,

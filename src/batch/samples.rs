@@ -31,8 +31,8 @@ impl<'a> Samples<'a> {
     ///
     /// ```
     /// # use airlight::Samples;
-    /// let [mut t, mut pdf, mut weight] = [[0.0; 8]; 3];
-    /// let samples = Samples::new(&mut t, &mut pdf).weight(&mut weight);
+    /// let [mut t, mut pdf, mut weight, mut r] = [[0.0; 8]; 4];
+    /// let samples = Samples::new(&mut t, &mut pdf).weight(&mut weight).r(&mut r);
     /// ```
     #[must_use]
     pub fn new(t: &'a mut [f32], pdf: &'a mut [f32]) -> Self {

@@ -19,13 +19,13 @@ use std::str::FromStr;
 /// | you have | take | as measured |
 /// |---|---|---|
 /// | one sample per ray and emitter | `Product5`, the default | twice the cost of `EquiAngular`; in four rendered scenes, shadows included, 1.5 to 11 times as efficient, and within a seventh of the best strategy of each |
-/// | several samples per ray and emitter | `Product9` | the set-up is shared: with 8 samples one of them costs 1.1 times a single sample of `EquiAngular`, and its mean variance is a sixth of that of `Product5` |
-/// | no occluders | none: the [`Integral`](crate::Integral) | no noise, for less than the cost of a sample of `Product9` |
-/// | many lights to choose from | the [`Integral`](crate::Integral) with four nodes, `Product5` for the sample | what chooses is off by 0.004 % in the median of ordinary scenes |
+/// | several samples per ray and emitter | `Product9` | the set-up is shared: with 8 samples one of them costs 0.9 of a single sample of `EquiAngular`, and its median variance is a ninth of that of `Product5` |
+/// | no occluders | none: the [`Integral`](crate::Integral) | no noise, for the cost of a sample of `Product9` |
+/// | many lights to choose from | [`Integral::choose`](crate::Integral::choose) with four nodes, `Product5` for the sample | what chooses is off by 0.004 % in the median of ordinary scenes |
 /// | thin medium, `abs(g)` below 0.3, and the sampler shows in a profile | `PointNormal`, or `EquiAngular` for emitters without a normal | half the cost of `Product5`; its variance is bounded by that of phase function and transmittance, which then vary little |
 /// | a dense medium, `abs(g)` above 0.5, or emitters seen from behind | none but a product density | the relative variance of all others has no bound: above 1 for a third of a broad set of scenes |
 /// | a second density to combine with (multiple importance sampling) | `Transmittance` | knows no emitter, and so misses no other light |
-/// | a comparison with the paper | `TaylorTransmittance`, `TaylorPhase` | 1.7 times the cost of `Product5` and a larger variance in all but single cases |
+/// | a comparison with the paper | `TaylorTransmittance`, `TaylorPhase` | 1.4 to 1.6 times the cost of `Product5` and a larger variance in all but single cases |
 ///
 /// Relative variance is that of one weight over the square of its mean: `airlight variance --set broad`. Costs:
 /// `airlight profile`, on AVX2. Rendered scenes, at equal time: `airlight render --compare`. More knots than 5 lessen the
