@@ -12,9 +12,11 @@ mod samples;
 mod source;
 
 pub use counts::Counts;
+pub(crate) use emitters::EmitterRows;
 pub use emitters::Emitters;
 pub(crate) use inputs::Inputs;
 pub use media::Media;
+pub(crate) use media::{MediumGroups, MediumRows};
 pub(crate) use outputs::{Choices, Column, OfRuns, Outputs};
 pub(crate) use pads::{Pad, Pads, first_values};
 pub(crate) use rays::RayGroups;
@@ -22,7 +24,7 @@ pub use rays::Rays;
 pub(crate) use runs::{Run, Turn};
 pub(crate) use samples::OfSamples;
 pub use samples::Samples;
-pub(crate) use source::{Entry, Gathered, RowGroups, Rows};
+pub(crate) use source::{Entry, Gathered, Rows};
 
 use crate::simd::Isa;
 

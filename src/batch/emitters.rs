@@ -1,6 +1,6 @@
 //! The emitter of each ray.
 
-use super::source::{Entry, RowGroups, Source};
+use super::source::{Entry, RowGroups, Rows, Source};
 use crate::geometry::EmitterLanes;
 use crate::scene::Emitter;
 use crate::simd::Isa;
@@ -8,7 +8,7 @@ use crate::simd::Isa;
 /// The emitter of each ray: [one](Self::one) for the batch, one per ray as [columns](Self::each), or a
 /// [table](Self::table) with an index per ray.
 #[derive(Clone, Copy, Debug)]
-pub struct Emitters<'a>(pub(crate) Source<'a, Emitter, 6>);
+pub struct Emitters<'a>(pub(crate) Source<'a, Emitter, COLUMNS>);
 
 impl<'a> Emitters<'a> {
     /// One for the whole batch.
@@ -57,8 +57,14 @@ impl<'a> Emitters<'a> {
     }
 }
 
-impl Entry<6> for Emitter {
-    const COLUMNS: [&'static str; 6] = [
+/// Columns of an emitter: position and normal.
+pub(super) const COLUMNS: usize = 6;
+
+/// The emitters of some rays.
+pub(crate) type EmitterRows<'r> = Rows<'r, COLUMNS>;
+
+impl Entry<COLUMNS> for Emitter {
+    const COLUMNS: [&'static str; COLUMNS] = [
         "emitters.position[0]",
         "emitters.position[1]",
         "emitters.position[2]",
@@ -75,13 +81,13 @@ impl Entry<6> for Emitter {
     }
 
     #[inline]
-    fn row(&self) -> [f32; 6] {
+    fn row(&self) -> [f32; COLUMNS] {
         let ([px, py, pz], [nx, ny, nz]) = (self.position(), self.normal().unwrap_or_default());
         [px, py, pz, nx, ny, nz]
     }
 }
 
-impl<I: Isa> RowGroups<'_, I, 6> {
+impl<I: Isa> RowGroups<'_, I, COLUMNS> {
     /// The emitters of lane group `index`.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn emitters(&self, isa: I, index: usize) -> EmitterLanes<I> {

@@ -1,6 +1,6 @@
 //! The medium of each ray.
 
-use super::source::{Entry, RowGroups, Source};
+use super::source::{Entry, RowGroups, Rows, Source};
 use crate::integrand::MediumLanes;
 use crate::scene::Medium;
 use crate::simd::Isa;
@@ -8,7 +8,7 @@ use crate::simd::Isa;
 /// The medium of each ray: [one](Self::one) for the batch, one per ray as [columns](Self::each), or a
 /// [table](Self::table) with an index per ray.
 #[derive(Clone, Copy, Debug)]
-pub struct Media<'a>(pub(crate) Source<'a, Medium, 3>);
+pub struct Media<'a>(pub(crate) Source<'a, Medium, COLUMNS>);
 
 impl<'a> Media<'a> {
     /// One for the whole batch.
@@ -53,8 +53,17 @@ impl<'a> Media<'a> {
     }
 }
 
-impl Entry<3> for Medium {
-    const COLUMNS: [&'static str; 3] = ["media.mu_a", "media.mu_s", "media.g"];
+/// Columns of a medium: `mu_a`, `mu_s` and `g`.
+pub(super) const COLUMNS: usize = 3;
+
+/// The media of some rays.
+pub(crate) type MediumRows<'r> = Rows<'r, COLUMNS>;
+
+/// The same in lane groups.
+pub(crate) type MediumGroups<'r, I> = RowGroups<'r, I, COLUMNS>;
+
+impl Entry<COLUMNS> for Medium {
+    const COLUMNS: [&'static str; COLUMNS] = ["media.mu_a", "media.mu_s", "media.g"];
     const TABLE: &'static str = "media.table";
     const INDEX: &'static str = "media.index";
     const UNSUPPORTED: &'static str = "coloured media";
@@ -64,12 +73,12 @@ impl Entry<3> for Medium {
     }
 
     #[inline]
-    fn row(&self) -> [f32; 3] {
+    fn row(&self) -> [f32; COLUMNS] {
         [self.mu_a(), self.mu_s(), self.g()]
     }
 }
 
-impl<I: Isa> RowGroups<'_, I, 3> {
+impl<I: Isa> MediumGroups<'_, I> {
     /// The media of lane group `index`.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn media(&self, isa: I, index: usize) -> MediumLanes<I> {

@@ -1,7 +1,7 @@
 //! Columns for one lane group, made of fewer rays than it has lanes.
 
 use super::source::Source;
-use super::{Emitters, Inputs, Media, Rays};
+use super::{Emitters, Inputs, Media, Rays, emitters, media};
 use crate::simd::MOST_LANES;
 
 /// As many values as the lanes of every backend need, or more.
@@ -12,8 +12,8 @@ const NOTHING: Pad = [0.0; MOST_LANES];
 /// What copies of the columns of a few rays are made in.
 pub(crate) struct Pads {
     rays: [Pad; 8],
-    emitters: SourcePads<6>,
-    media: SourcePads<3>,
+    emitters: SourcePads<{ emitters::COLUMNS }>,
+    media: SourcePads<{ media::COLUMNS }>,
 }
 
 impl Pads {

@@ -7,7 +7,7 @@
 //! 3. weights, the same for all densities.
 
 use crate::Precision;
-use crate::batch::{Counts, Gathered, Inputs, MOST_RAYS, Rows, Run, Turn};
+use crate::batch::{Counts, EmitterRows, Gathered, Inputs, MOST_RAYS, MediumRows, Run, Turn};
 use crate::density::{Density, Kind, SetUp};
 use crate::geometry::{Cosine, Extent, Foot, Geometry, Lit, clip, find_foot, in_f64, pick};
 use crate::simd::{GROUPS, Isa, Lanes, MOST_LANES, Records, Room, none};
@@ -31,7 +31,7 @@ pub(super) struct Block<'b, I: Isa> {
     /// Which ones of the chunk they are.
     pub(super) groups: Range<usize>,
     /// Their media.
-    pub(super) media: Rows<'b, 3>,
+    pub(super) media: MediumRows<'b>,
     lits: &'b [Lit<I>],
     cosines: &'b [Cosine<I>],
     feet: &'b [Foot<I>],
@@ -231,7 +231,7 @@ pub(super) const AHEAD: usize = 2 * GROUPS;
 fn in_single<I: Isa, const EXACT: bool, const FOOT: bool, const COSINE: bool, const DIFFER: bool>(
     isa: I,
     inputs: &Inputs<'_>,
-    emitters: Rows<'_, 6>,
+    emitters: EmitterRows<'_>,
     groups: Range<usize>,
     places: &mut Places<I>,
 ) {
@@ -285,7 +285,7 @@ fn in_single<I: Isa, const EXACT: bool, const FOOT: bool, const COSINE: bool, co
 fn find_feet<I: Isa, const EXACT: bool, const COSINE: bool, const DIFFER: bool>(
     isa: I,
     inputs: &Inputs<'_>,
-    emitters: Rows<'_, 6>,
+    emitters: EmitterRows<'_>,
     start: usize,
     places: &mut Places<I>,
 ) -> bool {
@@ -321,7 +321,7 @@ fn find_feet<I: Isa, const EXACT: bool, const COSINE: bool, const DIFFER: bool>(
 fn rescue<I: Isa, const FOOT: bool, const COSINE: bool>(
     isa: I,
     inputs: &Inputs<'_>,
-    emitters: Rows<'_, 6>,
+    emitters: EmitterRows<'_>,
     start: usize,
     places: &mut Places<I>,
 ) {
@@ -358,7 +358,7 @@ fn rescue<I: Isa, const FOOT: bool, const COSINE: bool>(
 fn in_double<I: Isa, const FOOT: bool, const COSINE: bool>(
     isa: I,
     inputs: &Inputs<'_>,
-    emitters: Rows<'_, 6>,
+    emitters: EmitterRows<'_>,
     groups: Range<usize>,
     places: &mut Places<I>,
 ) {

@@ -3,7 +3,7 @@
 use super::blocks::{AHEAD, Block, Geometries, SetUps, Tally, Wanted, for_each_block, for_each_run, set_up};
 use super::{Method, OfDensity, Out, Task, by_strategy};
 use crate::Precision;
-use crate::batch::{Counts, Inputs, OfRuns, OfSamples, RayGroups, RowGroups, Samples, Turn};
+use crate::batch::{Counts, Inputs, MediumGroups, OfRuns, OfSamples, RayGroups, Samples, Turn};
 use crate::density::{Density, Kind, SetUp};
 use crate::geometry::{Extent, Geometry, Point};
 use crate::integrand::{MediumLanes, integrand_r2};
@@ -53,11 +53,9 @@ impl<const WITH_WEIGHT_OR_R: bool> OfDensity for Drawing<WITH_WEIGHT_OR_R> {
                 let u = run.values(inputs.given, &mut pad);
                 return OfSamples::of_run(&mut out, run, |mut out| {
                     let once = Once { block, u };
+                    let points = once.write::<D, WITH_WEIGHT_OR_R>(isa, &mut points, &mut out, &mut tally);
                     if WITH_WEIGHT_OR_R {
-                        let points = once.points::<D>(isa, &mut points, &mut out, &mut tally);
                         weigh(isa, block, run.turns, points, &mut out);
-                    } else {
-                        once.write::<D>(isa, &mut out, &mut tally);
                     }
                 });
             }
@@ -67,11 +65,9 @@ impl<const WITH_WEIGHT_OR_R: bool> OfDensity for Drawing<WITH_WEIGHT_OR_R> {
                 let places = draw::<I, D>(isa, block, set_ups, run.turns, u, &mut places);
                 OfSamples::of_run(&mut out, run, |mut out| {
                     let pass = Points::<I, D> { block, set_ups, turns: run.turns, places };
+                    let points = pass.write::<WITH_WEIGHT_OR_R>(isa, &mut points, &mut out, &mut tally);
                     if WITH_WEIGHT_OR_R {
-                        let points = pass.points(isa, &mut points, &mut out, &mut tally);
                         weigh(isa, block, run.turns, points, &mut out);
-                    } else {
-                        pass.write(isa, &mut out, &mut tally);
                     }
                 });
             });
@@ -87,39 +83,29 @@ struct Once<'p, I: Isa> {
 }
 
 impl<I: Isa> Once<'_, I> {
-    fn write<D: Kind>(&self, isa: I, out: &mut Samples<'_>, tally: &mut Tally<I>) {
-        isa.vectorize::<D, _>(
-            #[cfg_attr(optimized, inline(always))]
-            || {
-                let mut stations = self.stations(isa);
-                let (t, pdf) = (I::groups_mut(out.t), I::groups_mut(out.pdf));
-                for ((record, t), pdf) in (0..self.block.groups.len()).zip(t).zip(pdf) {
-                    stations.go::<D>(isa, record, t, pdf, tally);
-                }
-            },
-        );
-    }
-
-    /// The same, and the points.
-    fn points<'r, D: Kind>(
+    /// Writes `t` and `pdf`; the points are kept for weights and `r`.
+    fn write<'r, D: Kind, const KEEP: bool>(
         &self,
         isa: I,
-        records: &'r mut Records<Sampled<I>>,
+        points: &'r mut Records<Sampled<I>>,
         out: &mut Samples<'_>,
         tally: &mut Tally<I>,
     ) -> &'r [Sampled<I>] {
         isa.vectorize::<D, _>(
             #[cfg_attr(optimized, inline(always))]
             || {
-                let mut stations = self.stations(isa);
+                let (mut stations, mut kept) = (self.stations(isa), points.start());
                 let (t, pdf) = (I::groups_mut(out.t), I::groups_mut(out.pdf));
-                records.fill(
-                    self.block.groups.len(),
-                    #[cfg_attr(optimized, inline(always))]
-                    |record| stations.go::<D>(isa, record, &mut t[record], &mut pdf[record], tally),
-                )
+                for ((record, t), pdf) in (0..self.block.groups.len()).zip(t).zip(pdf) {
+                    let sampled = stations.go::<D>(isa, record, t, pdf, tally);
+                    if KEEP {
+                        kept.push(sampled);
+                    }
+                }
+                kept.done();
             },
-        )
+        );
+        points.written()
     }
 
     #[cfg_attr(optimized, inline(always))]
@@ -143,7 +129,7 @@ struct Stations<'p, I: Isa> {
     rays: RayGroups<'p, I>,
     geometries: Geometries<'p, I>,
     u: &'p [I::Group],
-    media: RowGroups<'p, I, 3>,
+    media: MediumGroups<'p, I>,
     medium: MediumLanes<I>,
 }
 
@@ -231,25 +217,11 @@ struct Points<'p, I: Isa, D: Kind> {
 }
 
 impl<I: Isa, D: Kind> Points<'_, I, D> {
-    fn write(&self, isa: I, out: &mut Samples<'_>, tally: &mut Tally<I>) {
-        isa.vectorize::<D, _>(
-            #[cfg_attr(optimized, inline(always))]
-            || {
-                let ((t, pdf), geometries) = (self.groups(out), self.block.geometries());
-                let (places, set_ups) = (&self.places[..t.len()], &self.set_ups[..self.block.groups.len()]);
-                for (((turn, place), t), pdf) in self.turns.iter().zip(places).zip(t).zip(pdf) {
-                    let geometry = geometries.get(turn.record);
-                    point_one::<I, D>(isa, geometry, &set_ups[turn.record], place, t, pdf, tally);
-                }
-            },
-        );
-    }
-
-    /// The same, and the points.
-    fn points<'r>(
+    /// Writes them; they are kept for weights and `r`.
+    fn write<'r, const KEEP: bool>(
         &self,
         isa: I,
-        records: &'r mut Records<Sampled<I>>,
+        points: &'r mut Records<Sampled<I>>,
         out: &mut Samples<'_>,
         tally: &mut Tally<I>,
     ) -> &'r [Sampled<I>] {
@@ -257,20 +229,19 @@ impl<I: Isa, D: Kind> Points<'_, I, D> {
             #[cfg_attr(optimized, inline(always))]
             || {
                 let ((t, pdf), geometries) = (self.groups(out), self.block.geometries());
-                let set_ups = &self.set_ups[..self.block.groups.len()];
-                let places = &self.places[..t.len()];
-                records.fill(
-                    t.len(),
-                    #[cfg_attr(optimized, inline(always))]
-                    |index| {
-                        let record = self.turns[index].record;
-                        let (set_up, place) = (&set_ups[record], &places[index]);
-                        let (t, pdf) = (&mut t[index], &mut pdf[index]);
-                        point_one::<I, D>(isa, geometries.get(record), set_up, place, t, pdf, tally)
-                    },
-                )
+                let (places, set_ups) = (&self.places[..t.len()], &self.set_ups[..self.block.groups.len()]);
+                let mut kept = points.start();
+                for (((turn, place), t), pdf) in self.turns.iter().zip(places).zip(t).zip(pdf) {
+                    let (geometry, set_up) = (geometries.get(turn.record), &set_ups[turn.record]);
+                    let sampled = point_one::<I, D>(isa, geometry, set_up, place, t, pdf, tally);
+                    if KEEP {
+                        kept.push(sampled);
+                    }
+                }
+                kept.done();
             },
-        )
+        );
+        points.written()
     }
 
     /// `t` and `pdf` of the turns.
