@@ -12,7 +12,7 @@ mod samples;
 mod source;
 
 pub use counts::Counts;
-pub(crate) use emitters::EmitterRows;
+pub(crate) use emitters::{ConeRows, EmitterRows};
 pub use emitters::Emitters;
 pub(crate) use inputs::Inputs;
 pub use media::Media;
@@ -24,7 +24,7 @@ pub use rays::Rays;
 pub(crate) use runs::{Run, Turn};
 pub(crate) use samples::OfSamples;
 pub use samples::Samples;
-pub(crate) use source::{Entry, Gathered, Rows};
+pub(crate) use source::{Gathered, Rows};
 
 use crate::simd::Isa;
 

@@ -50,7 +50,7 @@ impl<I: Isa> MediumLanes<I> {
     }
 }
 
-/// `mu_s T rho N` \[1/m\]: the integrand times `r^2`.
+/// `mu_s T rho N` \[1/m\]: the integrand times `r^2`, with the falloff `S` of a spot in place of `N`.
 #[cfg_attr(optimized, inline(always))]
 pub(crate) fn integrand_r2<I: Isa>(
     isa: I,
@@ -59,7 +59,7 @@ pub(crate) fn integrand_r2<I: Isa>(
     medium: &MediumLanes<I>,
     point: &Point<I>,
 ) -> I::V {
-    (medium.mu_s * transmittance(isa, ray, g, medium, point)) * (phase(isa, g, medium.g, point) * g.cosine(isa, point))
+    (medium.mu_s * transmittance(isa, ray, g, medium, point)) * (phase(isa, g, medium.g, point) * g.intensity(isa, point))
 }
 
 /// From `t_min` over the point to the emitter, (3).

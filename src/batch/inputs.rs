@@ -35,15 +35,14 @@ impl<'a> Inputs<'a> {
         }
         inputs.check("rays.t_min", rays.t_min)?;
         inputs.check("rays.t_max", rays.t_max)?;
-        emitters.0.check(inputs.len())?;
-        media.0.check(inputs.len())?;
+        emitters.check(inputs.len())?;
+        media.check(inputs.len())?;
         Ok(inputs)
     }
 
     /// The same for rays that each emitter of a table may light.
     pub(crate) fn with_table(rays: &Rays<'a>, table: &[Emitter], media: &Media<'a>) -> Result<Self, Error> {
         let [first, ..] = table else { return Err(Error::Empty { field: "table" }) };
-        table.iter().try_for_each(|emitter| Emitters::one(*emitter).0.check(0))?;
         Self::new(rays, &Emitters::one(*first), media)
     }
 
@@ -87,7 +86,7 @@ impl<'a> Inputs<'a> {
     /// The rays of `range` alone.
     pub(crate) fn slice(&self, range: Range<usize>) -> Self {
         let given = self.given.get(range.start * self.per_ray..range.end * self.per_ray).unwrap_or_default();
-        let emitters = Emitters(self.emitters.0.part(range.clone()));
+        let emitters = self.emitters.part(range.clone());
         let media = Media(self.media.0.part(range.clone()));
         Self { rays: self.rays.part(range), emitters, media, given, ..*self }
     }

@@ -1,6 +1,7 @@
 //! The medium of each ray.
 
 use super::source::{Entry, RowGroups, Rows, Source};
+use crate::Error;
 use crate::integrand::MediumLanes;
 use crate::scene::Medium;
 use crate::simd::Isa;
@@ -51,6 +52,19 @@ impl<'a> Media<'a> {
     pub fn table(table: &'a [Medium], index: &'a [u32]) -> Self {
         Self(Source::Table { table, index })
     }
+
+    /// `Ok` if there is one for each of so many rays.
+    pub(super) fn check(&self, rays: usize) -> Result<(), Error> {
+        let coloured = match self.0 {
+            Source::One(medium) => medium.channels() > 1,
+            Source::Table { table, .. } => table.iter().any(|medium| medium.channels() > 1),
+            Source::Each(_) => false,
+        };
+        if coloured {
+            return Err(Error::Unavailable { field: "coloured media", strategy: None });
+        }
+        self.0.check(rays)
+    }
 }
 
 /// Columns of a medium: `mu_a`, `mu_s` and `g`.
@@ -66,11 +80,6 @@ impl Entry<COLUMNS> for Medium {
     const COLUMNS: [&'static str; COLUMNS] = ["media.mu_a", "media.mu_s", "media.g"];
     const TABLE: &'static str = "media.table";
     const INDEX: &'static str = "media.index";
-    const UNSUPPORTED: &'static str = "coloured media";
-
-    fn is_supported(&self) -> bool {
-        self.channels() == 1
-    }
 
     #[inline]
     fn row(&self) -> [f32; COLUMNS] {

@@ -13,6 +13,7 @@ const NOTHING: Pad = [0.0; MOST_LANES];
 pub(crate) struct Pads {
     rays: [Pad; 8],
     emitters: SourcePads<{ emitters::COLUMNS }>,
+    cones: SourcePads<{ emitters::CONE_COLUMNS }>,
     media: SourcePads<{ media::COLUMNS }>,
 }
 
@@ -20,7 +21,8 @@ impl Pads {
     /// Nothing yet.
     #[inline]
     pub(crate) fn new() -> Self {
-        Self { rays: [NOTHING; 8], emitters: SourcePads::new(), media: SourcePads::new() }
+        let (emitters, cones, media) = (SourcePads::new(), SourcePads::new(), SourcePads::new());
+        Self { rays: [NOTHING; 8], emitters, cones, media }
     }
 
     /// A lane group of so many lanes: the rays of `inputs` one after the other, then the first one again.
@@ -30,7 +32,10 @@ impl Pads {
             filled(&mut self.rays, [ox, oy, oz, dx, dy, dz, t_min, t_max], lanes);
         Inputs {
             rays: Rays { origin: [ox, oy, oz], direction: [dx, dy, dz], t_min, t_max },
-            emitters: Emitters(self.emitters.fill(inputs.emitters.0, lanes)),
+            emitters: Emitters {
+                points: self.emitters.fill(inputs.emitters.points, lanes),
+                cones: inputs.emitters.cones.map(|cones| self.cones.fill(cones, lanes)),
+            },
             media: Media(self.media.fill(inputs.media.0, lanes)),
             ..*inputs
         }

@@ -12,12 +12,6 @@ pub(crate) trait Entry<const K: usize>: Copy {
     const TABLE: &'static str;
     const INDEX: &'static str;
 
-    /// What of this kind has no kernel.
-    const UNSUPPORTED: &'static str;
-
-    /// Whether the kernels know such a thing.
-    fn is_supported(&self) -> bool;
-
     /// Its numbers, in the order of the columns.
     fn row(&self) -> [f32; K];
 }
@@ -37,16 +31,13 @@ impl<'a, T: Entry<K>, const K: usize> Source<'a, T, K> {
     /// `Ok` if there is one for each of so many rays.
     pub(super) fn check(&self, rays: usize) -> Result<(), Error> {
         match *self {
-            Self::One(one) => known([one].iter()),
+            Self::One(_) => Ok(()),
             Self::Each(columns) => {
                 let mut columns = T::COLUMNS.into_iter().zip(columns);
                 columns.try_for_each(|(field, column)| Error::unless_length(field, column.len(), rays))
             }
             Self::Table { table: [], .. } => Err(Error::Empty { field: T::TABLE }),
-            Self::Table { table, index } => {
-                known(table.iter())?;
-                Error::unless_length(T::INDEX, index.len(), rays)
-            }
+            Self::Table { index, .. } => Error::unless_length(T::INDEX, index.len(), rays),
         }
     }
 
@@ -74,15 +65,6 @@ impl<'a, T: Entry<K>, const K: usize> Source<'a, T, K> {
             Self::Each(columns) => Rows::Each(columns.map(|column| &column[range.clone()])),
             Self::Table { table, index } => Rows::Each(place.gather(table, &index[range])),
         }
-    }
-}
-
-/// `Ok` if the kernels know all of them.
-fn known<'a, T: Entry<K> + 'a, const K: usize>(mut entries: impl Iterator<Item = &'a T>) -> Result<(), Error> {
-    if entries.all(T::is_supported) {
-        Ok(())
-    } else {
-        Err(Error::Unavailable { field: T::UNSUPPORTED, strategy: None })
     }
 }
 

@@ -9,7 +9,10 @@
 //! - A line's values at its inner knots are those of the integrand less a twelfth of `width^2 f''`, as least squares would
 //!   have them. At an end, where the integrand may vanish over no length at all, it is drawn through a place inside.
 
+pub(crate) mod along_v;
 pub(crate) mod knots;
+
+use along_v::{AlongV, At, ConeAlongV, Units, x_and_h_over_it};
 
 use crate::density::{Density, Drawn, Pdf, SetUp};
 use crate::geometry::{Extent, Geometry, Point, RayLanes};
@@ -211,15 +214,6 @@ impl<I: Isa, const K: usize> Product<I, K> {
     }
 }
 
-/// `X` at an end without cancellation, and `h/X`, of one division.
-#[cfg_attr(optimized, inline(always))]
-pub(crate) fn x_and_h_over_it<I: Isa>(isa: I, h: I::V, inv_h: I::V, t_prime: I::V, r: I::V) -> (I::V, I::V) {
-    let forward = isa.splat(0.0).lt(t_prime);
-    let long = r + t_prime.abs();
-    let short = h / long;
-    (I::V::select(forward, long, h * short), I::V::select(forward, short, long * inv_h))
-}
-
 impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
     const EXTENT: Extent = Extent::Cosine;
     type Place = Place<I>;
@@ -249,11 +243,9 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
         let scale = one / h_c.max(x_c).max(one);
         let (h_c, x_c) = (h_c * scale, x_c * scale);
         let (h_c, x_c, y_c_c) = (w_0 * h_c, w_0 * x_c, w_0 * scale);
-        // m = n.(x - y) in units of the end where N is smaller.
-        let rising = g.cosine.rising(isa);
-        let m_end = w_0 * g.cosine.m_least * inv_y_c;
-        let half_beta = c(0.5) * g.cosine.beta.abs() * I::V::select(rising, w_0, inv_e);
-        let h_x = I::V::select(rising, h_x_a, h_x_b);
+        let units = Units { of_v: w_0, of_to_1: inv_e, h_x_a, h_x_b };
+        let m_along = AlongV::new(isa, &g.cosine.ramp(isa), w_0 * g.cosine.m_least * inv_y_c, &units);
+        let cone = ConeAlongV::new(isa, g, w_0 * inv_y_c, scale, &units);
 
         let mut seen = [one; K];
         let mut k = 0;
@@ -265,12 +257,15 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
 
             let p = h_c * rest;
             let q = x_c.mul_add(rest, y_c_c * v);
-            let way = I::V::select(rising, v, to_1);
-            let m = m_end.mul_add(rest * q, half_beta * way * p.mul_add(h_x, q));
+            let at = At { v, to_1, scale: rest, p, q };
+            let m = m_along.at(&at);
             let p2 = p * p;
             let s_1 = q.mul_add(q, p2).max(c(1e-18));
             let s_2 = (a2 * q).mul_add(q, b2 * p2).max(c(1e-18));
-            let numerator = I::V::select(g.cosine.has_normal, m.max(c(0.0)), s_1);
+            let mut numerator = I::V::select(g.cosine.has_normal, m.max(c(0.0)), s_1);
+            if let Some(cone) = &cone {
+                numerator = numerator * cone.at(isa, &at, m, s_1);
+            }
             seen[k] = transmittance * numerator / (s_2 * (s_1 * s_2).sqrt());
             k += 1;
         }
