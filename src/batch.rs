@@ -12,8 +12,8 @@ mod samples;
 mod source;
 
 pub use counts::Counts;
-pub(crate) use emitters::{ConeRows, EmitterRows};
 pub use emitters::Emitters;
+pub(crate) use emitters::{ConeRows, EmitterRows};
 pub(crate) use inputs::Inputs;
 pub use media::Media;
 pub(crate) use media::{MediumGroups, MediumRows};

@@ -59,7 +59,8 @@ pub(crate) fn integrand_r2<I: Isa>(
     medium: &MediumLanes<I>,
     point: &Point<I>,
 ) -> I::V {
-    (medium.mu_s * transmittance(isa, ray, g, medium, point)) * (phase(isa, g, medium.g, point) * g.intensity(isa, point))
+    (medium.mu_s * transmittance(isa, ray, g, medium, point))
+        * (phase(isa, g, medium.g, point) * g.intensity(isa, point))
 }
 
 /// From `t_min` over the point to the emitter, (3).

@@ -79,7 +79,7 @@ impl<I: Isa> Cone<I> {
     pub(crate) fn falloff(&self, isa: I, before: I::V, after: I::V, m: I::V) -> I::V {
         let c = |x| isa.splat(x);
         // Where c = 0, m vanishes as `after` does.
-        let sum = (m + self.cos_outer).max(c(1e-12));
+        let sum = (m + self.cos_outer).max(c(1e-30));
         let s = (before * (after / sum) * self.inv_fall).min(c(1.0));
         I::V::select(self.hard | !self.is_spot, c(1.0), s * s * (c(3.0) - (s + s)))
     }
@@ -102,6 +102,40 @@ fn root<I: Isa>(isa: I, squared: I::Double) -> (I::Double, I::Double) {
     (squared * inverse, inverse)
 }
 
+impl<I: Isa> Line<I> {
+    /// Its direction, of unit length.
+    #[cfg_attr(optimized, inline(always))]
+    fn direction(&self) -> [I::Double; 3] {
+        [self.d[0] * self.unit, self.d[1] * self.unit, self.d[2] * self.unit]
+    }
+
+    /// The square of the least `h` that is resolved at this distance, not rounded to f32: the edges of a cone depend on it.
+    #[cfg_attr(optimized, inline(always))]
+    fn least_h_squared(&self, isa: I) -> I::Double {
+        let (t_h, start) = (self.t_h, self.t_prime[0]);
+        let away = t_h.max(-t_h).max(start.max(-start));
+        let least = (away * isa.splat_double(1e-9)).max(isa.splat_double(1e-18));
+        least * least
+    }
+
+    /// The foot with all its digits, also where it is much nearer to the emitter than the ray's origin is, and how far along the
+    /// ray it is from where the perpendicular meets it.
+    #[cfg_attr(optimized, inline(always))]
+    fn exact_foot(&self) -> ([I::Double; 3], I::Double) {
+        let Self { d, e, .. } = *self;
+        let along = self.t_h * self.unit;
+        // Products of two f32 are exact.
+        let high = I::V::narrow(along).widen();
+        let low = along - high;
+        let f = [
+            low.mul_add(d[0], high.mul_add(d[0], -e[0])),
+            low.mul_add(d[1], high.mul_add(d[1], -e[1])),
+            low.mul_add(d[2], high.mul_add(d[2], -e[2])),
+        ];
+        (f, dot(f, d) * self.unit)
+    }
+}
+
 /// What a spot lights.
 #[cfg_attr(optimized, inline(always))]
 pub(crate) fn locate<I: Isa>(isa: I, ray: &RayLanes<I>, spot: &SpotLanes<I>) -> (Located<I>, Cone<I>) {
@@ -109,45 +143,45 @@ pub(crate) fn locate<I: Isa>(isa: I, ray: &RayLanes<I>, spot: &SpotLanes<I>) -> 
     let zero = c(0.0);
     let (cos_outer, cos_inner) = (spot.cos_outer, spot.cos_inner);
     let line = Line::new(isa, ray, spot.position);
-    let (d, f) = (line.d, line.foot);
+    let d = line.d;
+    let (f, rho) = line.exact_foot();
     let a = widen::<I>(spot.axis);
     let q = excess_of_square(isa, a);
     let over_a = one_over_length(isa, q);
 
     // Lengths in units that keep squares within f32 when h is tiny.
-    let unit = I::V::select(I::V::narrow(line.h_squared).lt(c(1.0)), c((1u64 << 40) as f32), c(1.0)).widen();
+    let foot_squared = (-rho).mul_add(rho, dot(f, f));
+    let h_squared = foot_squared.max(line.least_h_squared(isa));
+    let unit = I::V::select(I::V::narrow(h_squared).lt(c(1.0)), c((1u64 << 40) as f32), c(1.0)).widen();
     let unit_squared = unit * unit;
-    let alpha_h = dot(a, f) * over_a;
     let beta = dot(a, d) * (over_a * line.unit);
-    let f_x_d = [
-        f[1].mul_add(d[2], -(f[2] * d[1])),
-        f[2].mul_add(d[0], -(f[0] * d[2])),
-        f[0].mul_add(d[1], -(f[1] * d[0])),
-    ];
+    let alpha_h = (-beta).mul_add(rho, dot(a, f) * over_a);
+    let f_x_d =
+        [f[1].mul_add(d[2], -(f[2] * d[1])), f[2].mul_add(d[0], -(f[0] * d[2])), f[0].mul_add(d[1], -(f[1] * d[0]))];
     let g = dot(a, f_x_d) * (over_a * line.unit);
     let one = isa.splat_double(1.0);
     let outer = cos_outer.widen();
-    let h_squared = line.h_squared;
     let sin_squared = (one - outer) * (one + outer);
-    let c2_less_beta2 = (outer - beta) * (outer + beta);
-    let off_line = line.foot_squared.mul_add(sin_squared, -(g * g));
+    let c2_less_beta2 =
+        difference_of_squares(isa, [a[0] * over_a, a[1] * over_a, a[2] * over_a], line.direction(), outer, beta);
+    let off_line = foot_squared.mul_add(sin_squared, -(g * g));
     let on_line = alpha_h.mul_add(alpha_h, -(h_squared * c2_less_beta2));
-    let is_off = I::V::narrow(h_squared - line.foot_squared).le(zero);
+    let is_off = I::V::narrow(h_squared - foot_squared).le(zero);
     let hs_squared = select(isa, is_off, off_line, on_line) * unit_squared;
     let met = zero.lt(I::V::narrow(hs_squared));
     let (hs_units, _) = root(isa, hs_squared.max(isa.splat_double(0.0)));
 
     // H and B are in units, B twice.
     let (alpha_units, h2_units) = (alpha_h * unit, h_squared * unit_squared);
-    let (_, over_r) = root(isa, alpha_units.mul_add(alpha_units, (beta * beta) * h2_units));
-    let (along, across) = (alpha_units * outer, beta * hs_units);
+    let r2_units = alpha_units.mul_add(alpha_units, (beta * beta) * h2_units);
+    let (_, over_r) = root(isa, r2_units);
     let (level, tilt) = ((beta * outer) * h2_units, alpha_units * hs_units);
-    let slopes = [along + across, along - across];
+    let slopes = slopes(isa, alpha_units * outer, beta * hs_units, r2_units * c2_less_beta2);
     let offsets = [level - tilt, level + tilt];
     let opens = [zero.lt(I::V::narrow(slopes[0])), zero.lt(I::V::narrow(slopes[1]))];
     let edges = [edge(isa, offsets[0], slopes[0], unit), edge(isa, offsets[1], slopes[1], unit)];
 
-    let [t_prime_min, t_prime_max] = line.t_prime;
+    let [t_prime_min, t_prime_max] = [line.t_prime[0] + rho, line.t_prime[1] + rho];
     let clip_a = opens[0] & zero.lt(I::V::narrow(edges[0] - t_prime_min));
     let clip_b = opens[1] & zero.lt(I::V::narrow(t_prime_max - edges[1]));
     let start = select(isa, clip_a, edges[0], t_prime_min);
@@ -157,10 +191,12 @@ pub(crate) fn locate<I: Isa>(isa: I, ray: &RayLanes<I>, spot: &SpotLanes<I>) -> 
     let length = I::V::select(clip_a | clip_b, I::V::narrow(end - start), whole);
     let between = clip_a & clip_b & zero.lt(between_edges);
     let length = I::V::select(between, between_edges, length).min(whole);
-    let lit = met & (opens[0] | opens[1]) & zero.lt(I::V::narrow(end - start));
+    // Neither end is where c and beta are 0: the ray keeps its side of the plane.
+    let ahead = opens[0] | opens[1] | zero.lt(I::V::narrow(alpha_h));
+    let lit = met & ahead & zero.lt(I::V::narrow(end - start));
     let length = I::V::only(lit, length);
 
-    let [edge_a, edge_b] = [line.end_at(ray, edges[0]), line.end_at(ray, edges[1])];
+    let [edge_a, edge_b] = [line.end_at(ray, edges[0] - rho), line.end_at(ray, edges[1] - rho)];
     let valid = line.valid
         & largest::<I>(spot.position).le(c(FARTHEST))
         & I::V::narrow(q).abs().le(c(TOLERANCE))
@@ -214,6 +250,38 @@ impl<I: Isa> Scaled<I> {
         let least = I::V::only(!at_edge, (in_units / I::V::narrow(self.unit)).max(zero));
         Ramp { least, slope: per_length.abs(), rising }
     }
+}
+
+/// `c^2 - beta^2` of unit vectors, of which `beta` is the product: by `1 - |beta|`, which is half the square of their difference
+/// or of their sum, and has as many digits as the angle between a ray and the side of a narrow cone needs.
+#[cfg_attr(optimized, inline(always))]
+fn difference_of_squares<I: Isa>(
+    isa: I,
+    a: [I::Double; 3],
+    d: [I::Double; 3],
+    outer: I::Double,
+    beta: I::Double,
+) -> I::Double {
+    let one = isa.splat(1.0);
+    let alike = isa.splat(0.0).le(I::V::narrow(beta));
+    let sign = (I::V::only(alike, one + one) - one).widen();
+    let apart = [(-sign).mul_add(d[0], a[0]), (-sign).mul_add(d[1], a[1]), (-sign).mul_add(d[2], a[2])];
+    let to_one = dot(apart, apart) * isa.splat_double(0.5);
+    let one = isa.splat_double(1.0);
+    (to_one - (one - outer)) * (outer + (one - to_one))
+}
+
+/// `H_1` and `H_2`, sum and difference; the smaller one by the product `R^2 (c^2 - beta^2)` of both, as next to a ray along the
+/// side of the cone it has no digits as a difference.
+#[cfg_attr(optimized, inline(always))]
+fn slopes<I: Isa>(isa: I, along: I::Double, across: I::Double, product: I::Double) -> [I::Double; 2] {
+    let (zero, one) = (isa.splat(0.0), isa.splat(1.0));
+    let alike = zero.le(I::V::narrow(along) * I::V::narrow(across));
+    let sign = (I::V::only(alike, one + one) - one).widen();
+    let large = sign.mul_add(across, along);
+    let near = one / I::V::select(I::V::narrow(large).eq(zero), one, I::V::narrow(large));
+    let small = product * reciprocal_near(isa, large, near.widen());
+    [select(isa, alike, large, small), select(isa, alike, small, large)]
 }
 
 /// `t'` where a ramp is 0, if it is there at all \[m\]: with a Newton step after the division, as what is lit may be as short as

@@ -13,11 +13,13 @@ pub(super) struct Line<I: Isa> {
     /// The direction, and `1/|d|`.
     pub(super) d: [I::Double; 3],
     pub(super) unit: I::Double,
+    /// The way from the ray's origin to the emitter.
+    pub(super) e: [I::Double; 3],
     pub(super) t_h: I::Double,
-    /// From the emitter to the foot of the perpendicular, its square, and `h^2`, which is larger where the emitter is on the line.
-    pub(super) foot: [I::Double; 3],
-    pub(super) foot_squared: I::Double,
-    pub(super) h_squared: I::Double,
+    /// From the emitter to the foot of the perpendicular.
+    foot: [I::Double; 3],
+    /// It is larger than the square of that where the emitter is on the line.
+    h_squared: I::Double,
     /// Where the ray ends, as a distance, and `t'` there.
     pub(super) t_max: I::V,
     pub(super) t_prime: [I::Double; 2],
@@ -57,7 +59,7 @@ impl<I: Isa> Line<I> {
             // No number where one of the coordinates is none.
             & size_squared.le(c(16.0 * FARTHEST * FARTHEST));
         let h_squared = foot_squared.max(least * least);
-        Self { d, unit, t_h, foot, foot_squared, h_squared, t_max, t_prime, valid, size_squared, least_h }
+        Self { d, unit, e, t_h, foot, h_squared, t_max, t_prime, valid, size_squared, least_h }
     }
 
     /// The foot of the perpendicular, with `t'` at the ends of the lit interval and `alpha_h` as they are given.
