@@ -400,7 +400,8 @@ impl Case {
     }
 
     fn spot(draw: &mut Draw) -> Self {
-        let case = match draw.below(4) {
+        let kind = draw.below(4);
+        let case = match kind {
             0 => Self::near_emitter(draw),
             1 => Self::infinite(draw),
             _ => Self::any(draw),
@@ -420,8 +421,8 @@ impl Case {
         let axis = match draw.below(8) {
             0 => draw.direction(),
             1 => d * draw.pick(&[1.0, -1.0]),
-            // Along the side of the cone.
-            2 => d * outer + across * sine,
+            // Along the side of the cone, which an infinite ray would meet where no light is left.
+            2 if kind != 1 => d * outer + across * sine,
             // The edge next to an end of the ray or at any other place of it.
             3 => towards * outer + towards.cross(draw.direction()).normalize_or(across) * sine,
             _ => towards + draw.direction() * (sine * draw.uniform()),
