@@ -147,9 +147,6 @@ pub(crate) fn travel_one<T: Task>(
     given: &[f32],
     out: Out<'_, T>,
 ) -> Counts {
-    if medium.channels() > 1 {
-        return Counts::default();
-    }
     let (origin, direction, t_min, t_max) = (ray.origin(), ray.direction(), ray.t_min(), ray.t_max());
     let rays = Rays::new(
         [0, 1, 2].map(|k| from_ref(&origin[k])),

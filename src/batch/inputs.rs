@@ -74,6 +74,13 @@ impl<'a> Inputs<'a> {
         Error::unless_length(field, column.len(), self.given.len())
     }
 
+    /// `Ok` if there are as many output columns as the media have channels; `field` is what they are called.
+    pub(crate) fn check_channels(&self, field: &'static str, channels: usize) -> Result<(), Error> {
+        let expected = self.media.channels();
+        let error = Error::Channels { field, index: None, channels, expected };
+        if channels == expected { Ok(()) } else { Err(error) }
+    }
+
     pub(crate) fn len(&self) -> usize {
         self.rays.len()
     }
@@ -87,7 +94,7 @@ impl<'a> Inputs<'a> {
     pub(crate) fn slice(&self, range: Range<usize>) -> Self {
         let given = self.given.get(range.start * self.per_ray..range.end * self.per_ray).unwrap_or_default();
         let emitters = self.emitters.part(range.clone());
-        let media = Media(self.media.0.part(range.clone()));
+        let media = self.media.part(range.clone());
         Self { rays: self.rays.part(range), emitters, media, given, ..*self }
     }
 

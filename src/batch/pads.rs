@@ -1,5 +1,6 @@
 //! Columns for one lane group, made of fewer rays than it has lanes.
 
+use super::media::Kind;
 use super::source::Source;
 use super::{Emitters, Inputs, Media, Rays, emitters, media};
 use crate::simd::MOST_LANES;
@@ -15,14 +16,15 @@ pub(crate) struct Pads {
     emitters: SourcePads<{ emitters::COLUMNS }>,
     cones: SourcePads<{ emitters::CONE_COLUMNS }>,
     media: SourcePads<{ media::COLUMNS }>,
+    channels: SourcePads<{ media::CHANNEL_COLUMNS }>,
 }
 
 impl Pads {
     /// Nothing yet.
     #[inline]
     pub(crate) fn new() -> Self {
-        let (emitters, cones, media) = (SourcePads::new(), SourcePads::new(), SourcePads::new());
-        Self { rays: [NOTHING; 8], emitters, cones, media }
+        let (emitters, cones) = (SourcePads::new(), SourcePads::new());
+        Self { rays: [NOTHING; 8], emitters, cones, media: SourcePads::new(), channels: SourcePads::new() }
     }
 
     /// A lane group of so many lanes: the rays of `inputs` one after the other, then the first one again.
@@ -36,7 +38,12 @@ impl Pads {
                 points: self.emitters.fill(inputs.emitters.points, lanes),
                 cones: inputs.emitters.cones.map(|cones| self.cones.fill(cones, lanes)),
             },
-            media: Media(self.media.fill(inputs.media.0, lanes)),
+            media: Media(match inputs.media.0 {
+                Kind::Grey(source) => Kind::Grey(self.media.fill(source, lanes)),
+                Kind::Coloured { source, channels } => {
+                    Kind::Coloured { source: self.channels.fill(source, lanes), channels }
+                }
+            }),
             ..*inputs
         }
     }

@@ -79,17 +79,22 @@ impl<const K: usize> Gathered<K> {
 
     /// The entries of `table` that `index` names, as columns; NaN where there is none.
     fn gather<T: Entry<K>>(&mut self, table: &[T], index: &[u32]) -> [&[f32]; K] {
+        self.fill(index.len(), |ray| table.get(index[ray] as usize).map_or([f32::NAN; K], T::row))
+    }
+
+    /// A row for each of so many rays, as columns.
+    #[inline]
+    pub(super) fn fill(&mut self, rays: usize, row: impl Fn(usize) -> [f32; K]) -> [&[f32]; K] {
         let columns = match &mut self.0 {
             Some(columns) => columns,
             none => none.insert([[0.0; MOST_RAYS]; K]),
         };
-        for (ray, &index) in index.iter().enumerate() {
-            let row = table.get(index as usize).map_or([f32::NAN; K], T::row);
-            for (column, value) in columns.iter_mut().zip(row) {
+        for ray in 0..rays {
+            for (column, value) in columns.iter_mut().zip(row(ray)) {
                 column[ray] = value;
             }
         }
-        columns.each_ref().map(|column| &column[..index.len()])
+        columns.each_ref().map(|column| &column[..rays])
     }
 }
 
@@ -107,6 +112,14 @@ impl<'r, const K: usize> Rows<'r, K> {
         match *self {
             Self::One(row) => Self::One(row),
             Self::Each(columns) => Self::Each(columns.map(|column| &column[range.clone()])),
+        }
+    }
+
+    /// Some of the numbers.
+    pub(super) fn select<const J: usize>(&self, numbers: [usize; J]) -> Rows<'r, J> {
+        match self {
+            Self::One(row) => Rows::One(numbers.map(|k| row[k])),
+            Self::Each(columns) => Rows::Each(numbers.map(|k| columns[k])),
         }
     }
 

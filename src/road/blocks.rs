@@ -7,7 +7,9 @@
 //! 3. weights, the same for all densities.
 
 use crate::Precision;
-use crate::batch::{ConeRows, Counts, EmitterRows, Gathered, Inputs, MOST_RAYS, MediumRows, Run, Turn};
+use crate::batch::{
+    ChannelGroups, ConeRows, Counts, EmitterRows, Gathered, Inputs, MOST_RAYS, MediaPlace, MediaRows, Run, Turn,
+};
 use crate::density::{Density, Kind, SetUp};
 use crate::geometry::{Cone, Cosine, Extent, Foot, Geometry, Lit, clip, find_foot, in_cone, in_f64, pick};
 use crate::simd::{GROUPS, Isa, Lanes, MOST_LANES, Records, Room, none};
@@ -31,7 +33,7 @@ pub(super) struct Block<'b, I: Isa> {
     /// Which ones of the chunk they are.
     pub(super) groups: Range<usize>,
     /// Their media.
-    pub(super) media: MediumRows<'b>,
+    pub(super) media: MediaRows<'b>,
     lits: &'b [Lit<I>],
     cosines: &'b [Cosine<I>],
     feet: &'b [Foot<I>],
@@ -43,6 +45,15 @@ impl<I: Isa> Block<'_, I> {
     /// The one turn of every group, where a ray has one value.
     pub(super) fn one_turn(&self) -> Run<'static> {
         self.inputs.run(&ONE_TURN[..self.groups.len()], self.groups.start, I::V::N)
+    }
+
+    /// The channels of coloured media.
+    #[cfg_attr(optimized, inline(always))]
+    pub(super) fn channels(&self, isa: I) -> Option<ChannelGroups<'_, I>> {
+        match &self.media.channels {
+            Some(channels) => Some(channels.groups(isa)),
+            None => None,
+        }
     }
 
     /// The geometries, for a pass.
@@ -126,13 +137,13 @@ pub(super) fn for_each_block<I: Isa>(
         (Extent::Cosine, Precision::Exact) if each => in_single::<I, true, true, true, true>,
         (Extent::Cosine, Precision::Exact) => in_single::<I, true, true, true, false>,
     };
-    let (mut emitters, mut cones, mut media) = (Gathered::new(), Gathered::new(), Gathered::new());
+    let (mut emitters, mut cones, mut media) = (Gathered::new(), Gathered::new(), MediaPlace::new());
     for start in (0..count).step_by(at_once) {
         let groups = start..count.min(start + at_once);
         let rays = groups.start * I::V::N..groups.end * I::V::N;
         let emitters = inputs.emitters.points.rows(rays.clone(), &mut emitters);
         let cones = inputs.emitters.cones.map(|source| source.rows(rays.clone(), &mut cones));
-        let media = inputs.media.0.rows(rays, &mut media);
+        let media = inputs.media.rows(rays, &mut media);
         locate(isa, inputs, emitters, groups.clone(), &mut places);
         if let Some(cones) = cones {
             in_cones(isa, inputs, emitters, cones, groups.start, &mut places);
@@ -446,8 +457,9 @@ pub(super) fn set_up<'r, I: Isa, Home, D: Density<I>>(
     isa.vectorize::<Home, _>(
         #[cfg_attr(optimized, inline(always))]
         || {
-            let (rays, media) = (block.inputs.ray_groups::<I>(), block.media.groups(isa));
+            let (rays, media) = (block.inputs.ray_groups::<I>(), block.media.means.groups(isa));
             let mut medium = media.media(isa, 0);
+            let channels = block.channels(isa);
             let geometries = block.geometries();
             records.fill(
                 block.groups.len(),
@@ -456,7 +468,11 @@ pub(super) fn set_up<'r, I: Isa, Home, D: Density<I>>(
                     let group = block.groups.start + record;
                     media.renew(isa, record, &mut medium);
                     let geometry = geometries.get(record);
-                    SetUp::new(isa, &rays.lanes(isa, group), geometry, &medium)
+                    let of_group = match &channels {
+                        Some(channels) => Some(channels.lanes(isa, record)),
+                        None => None,
+                    };
+                    SetUp::new(isa, &rays.lanes(isa, group), geometry, &medium, of_group.as_ref())
                 },
             )
         },
