@@ -1,4 +1,4 @@
-//! The pages of `docs/`: what stands in them is compiled, run and checked with the documentation.
+//! The pages of `docs/`. Their examples are tests, and their links are checked with the documentation.
 //!
 //! - [`choosing`]: which strategy, precision, number of nodes, variates; when no sample at all.
 //! - [`embedding`]: how to call airlight, and what the renderer does itself.
@@ -8,7 +8,8 @@
 //! - [`testing`]: what is promised, and which test holds it.
 //! - [`command`]: the command line.
 
-// The first definition of a link holds: `links.md` has those of the documentation, the end of each page those between files.
+// Markdown takes the first definition of a link: `links.md` has the items of the documentation, and the end of each page the
+// files for who reads it in the repository.
 
 #[doc = include_str!("guide/links.md")]
 #[doc = include_str!("../docs/choosing.md")]
