@@ -1,6 +1,6 @@
 //! What tests call the ABI with: a batch of random rays in the columns of a host.
 
-#![allow(dead_code, reason = "each test takes what it needs")]
+#![allow(dead_code, unreachable_pub, reason = "each test takes what it needs")]
 
 use airlight_c::*;
 use core::ffi::CStr;
@@ -76,10 +76,10 @@ impl Host {
         self.t_min.len()
     }
 
-    /// All its columns.
+    /// All its columns with a float for each ray.
     pub fn columns(&self) -> Vec<&[f32]> {
         let of_three = self.origin.iter().chain(&self.direction).chain(&self.position).chain(&self.normal);
-        let rest = [&self.t_min, &self.t_max, &self.mu_a, &self.mu_s, &self.g, &self.u];
+        let rest = [&self.t_min, &self.t_max, &self.mu_a, &self.mu_s, &self.g];
         of_three.chain(rest).map(|column| &column[..]).collect()
     }
 }
