@@ -190,7 +190,7 @@ impl Fuzz {
 fn any_structs_give_a_status() {
     let number = |name| std::env::var(name).ok().map(|text| text.parse::<u64>().unwrap());
     let seed = number("AIRLIGHT_SEED").unwrap_or_else(|| fastrand::u64(..));
-    let calls = number("AIRLIGHT_FUZZ").unwrap_or(50_000);
+    let calls = number("AIRLIGHT_FUZZ").unwrap_or(100_000);
     println!("AIRLIGHT_SEED={seed} AIRLIGHT_FUZZ={calls}");
     let mut fuzz = Fuzz { rng: fastrand::Rng::with_seed(seed), memory: vec![0xaa; FLOATS * 4 + 2 * FENCE] };
     let mut found = [0_u64; 10];
