@@ -120,6 +120,26 @@ impl Block {
         let start = self.rays.start * width + within.start;
         start..start + self.rays.len() * within.len()
     }
+
+    /// Visits its numbers, with how many bytes after the first one of a column with such elements each of them lies.
+    fn walk<T>(&self, width: usize, stride: usize, numbers: &mut [T], mut visit: impl FnMut(&mut T, usize)) {
+        let within = self.within(width);
+        let mut offset = self.rays.start * stride + within.start * size_of::<T>();
+        // Elements of one number in a loop of its own, which takes half the time.
+        if within.len() == 1 {
+            for number in numbers {
+                visit(number, offset);
+                offset = offset.wrapping_add(stride);
+            }
+            return;
+        }
+        for element in numbers.chunks_exact_mut(within.len()) {
+            for (i, number) in element.iter_mut().enumerate() {
+                visit(number, offset + i * size_of::<T>());
+            }
+            offset = offset.wrapping_add(stride);
+        }
+    }
 }
 
 impl<T: Cell> Input<T> {
@@ -134,17 +154,12 @@ impl<T: Cell> Input<T> {
             // overlaps.
             return unsafe { from_raw_parts(self.data.add(numbers.start), numbers.len()) };
         }
-        let room = &mut room(rooms)[..numbers.len()];
-        let within = block.within(self.width);
-        let mut from = self.data.cast::<u8>().wrapping_add(block.rays.start * self.stride).cast::<T>();
-        from = from.wrapping_add(within.start);
-        for element in room.chunks_exact_mut(within.len()) {
-            for (i, number) in element.iter_mut().enumerate() {
-                // SAFETY: an element of the column, within memory that the caller lends to the call.
-                *number = unsafe { from.wrapping_add(i).read_unaligned() };
-            }
-            from = from.wrapping_byte_add(self.stride);
-        }
+        let room: &mut [T] = &mut room(rooms)[..numbers.len()];
+        let from = self.data.cast::<u8>();
+        block.walk(self.width, self.stride, room, |number, offset| {
+            // SAFETY: a number of the column, within memory that the caller lends to the call.
+            *number = unsafe { from.wrapping_add(offset).cast::<T>().read_unaligned() };
+        });
         room
     }
 }
@@ -171,15 +186,11 @@ impl<T: Cell> Open<'_, T> {
         if is_slice || data.is_null() {
             return;
         }
-        let within = block.within(width);
-        let mut to = data.wrapping_byte_add(block.rays.start * stride).wrapping_add(within.start);
-        for element in values.chunks_exact(within.len()) {
-            for (i, number) in element.iter().enumerate() {
-                // SAFETY: an element of the column, within memory that the caller lends to the call.
-                unsafe { to.wrapping_add(i).write_unaligned(*number) };
-            }
-            to = to.wrapping_byte_add(stride);
-        }
+        let to = data.cast::<u8>();
+        block.walk(width, stride, values, |number, offset| {
+            // SAFETY: a number of the column, within memory that the caller lends to the call.
+            unsafe { to.wrapping_add(offset).cast::<T>().write_unaligned(*number) };
+        });
     }
 }
 
