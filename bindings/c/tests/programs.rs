@@ -61,9 +61,10 @@ fn succeed(command: &mut Command) -> String {
 
 /// Builds a program; `None` without a compiler.
 fn build(language: Language, source: &str, flags: &[&str], folder: &TempDir) -> Option<PathBuf> {
-    let program = folder.path().join(source.replace(['/', '.'], "-"));
+    let source = file(source);
+    let program = folder.path().join(source.file_stem().unwrap());
     let mut command = Command::new(language.compiler()?);
-    command.args(WARNINGS).args(flags).arg("-O2").arg("-I").arg(file("include")).arg(file(source));
+    command.args(WARNINGS).args(flags).arg("-O2").arg("-I").arg(file("include")).arg(source);
     succeed(command.arg("-o").arg(&program).arg(library()).args(SYSTEM));
     Some(program)
 }
@@ -158,5 +159,20 @@ fn no_environment_changes_a_bit_or_is_changed() {
     if let Some(program) = build(Language::C, "tests/environment.c", &["-std=c99"], &folder) {
         let text = succeed(&mut Command::new(&program));
         assert!(text.starts_with("0 failures"), "{text}");
+    }
+}
+
+#[test]
+fn the_programs_of_the_readme_run() {
+    let folder = TempDir::new().unwrap();
+    let readme = std::fs::read_to_string(file("README.md")).unwrap();
+    for (language, name, flags) in [(Language::C, "c", "-std=c99"), (Language::Cpp, "cpp", "-std=c++17")] {
+        let (_, code) = readme.split_once(&format!("```{name}\n")).unwrap();
+        let source = folder.path().join(format!("readme-{name}.{name}"));
+        std::fs::write(&source, code.split_once("```").unwrap().0).unwrap();
+        if let Some(program) = build(language, source.to_str().unwrap(), &[flags], &folder) {
+            let text = succeed(&mut Command::new(&program));
+            assert!(text.starts_with("t 1.") && !text.contains("weight 0\n"), "{text}");
+        }
     }
 }
