@@ -1,11 +1,14 @@
 //! What a call through the ABI takes beside the same call from Rust, on the calling thread: ratios of medians, in turns.
 
-use airlight::{Emitter, Emitters, Media, Medium, Rays, Sampler, Samples, Strategy, Threads};
+use airlight::{Emitter, Emitters, Media, Medium, Ray, Rays, Sampler, Samples, Strategy, Threads};
 use airlight_c::*;
+use core::hint::black_box;
 use core::ptr::null_mut;
 use std::time::{Duration, Instant};
 
 const RAYS: usize = 65_536;
+/// Rays of calls for one ray.
+const ONES: usize = 1000;
 const ROUNDS: usize = 61;
 
 /// A ray of a queue, with its sample.
@@ -47,6 +50,8 @@ fn main() {
         cos_inner: 0.0,
     };
     let fog = airlight_medium { channels: 1, mu_a: [0.05; 4], mu_s: [0.3; 4], g: 0.6 };
+    let lamp_of_rust = Emitter::point_normal(lamp.position, lamp.direction).unwrap();
+    let fog_of_rust = Medium::new(0.05, 0.3, 0.6).unwrap();
     let emitters = airlight_emitters { table: &lamp, table_count: 1, ..Default::default() };
     let media = airlight_media { table: &fog, table_count: 1, ..Default::default() };
 
@@ -56,8 +61,7 @@ fn main() {
         let rust = |t: &mut [f32], pdf: &mut [f32], weight: &mut [f32]| {
             let rays =
                 Rays::new(origin.each_ref().map(|c| &c[..]), direction.each_ref().map(|c| &c[..]), &t_min, &t_max);
-            let lamp = Emitters::one(Emitter::point_normal(lamp.position, lamp.direction).unwrap());
-            let fog = Media::one(Medium::new(0.05, 0.3, 0.6).unwrap());
+            let (lamp, fog) = (Emitters::one(lamp_of_rust), Media::one(fog_of_rust));
             sampler.sample(&rays, &lamp, &fog, &u, &mut Samples::new(t, pdf).weight(weight)).unwrap();
         };
         let packed = |t: &mut [f32], pdf: &mut [f32], weight: &mut [f32]| {
@@ -97,21 +101,42 @@ fn main() {
             (samples.t, samples.pdf, samples.weight[0]) = (output(8), output(9), output(10));
             call(&options, &batch, &samples);
         };
-        let mut times = [const { Vec::new() }; 3];
+        let one = |of_rust: bool| {
+            for i in 0..ONES {
+                let at = |columns: &[Vec<f32>; 3]| columns.each_ref().map(|column| column[i]);
+                if of_rust {
+                    let ray = Ray::new(at(&origin), at(&direction), 0.0, t_max[i]).unwrap();
+                    black_box(sampler.sample_one(&ray, &lamp_of_rust, &fog_of_rust, u[i]));
+                } else {
+                    let ray =
+                        airlight_ray { origin: at(&origin), direction: at(&direction), t_min: 0.0, t_max: t_max[i] };
+                    let scene = airlight_scene { ray, emitter: lamp, medium: fog, ..Default::default() };
+                    let mut sample = airlight_one_sample::default();
+                    // SAFETY: pointers to what they are said to be.
+                    unsafe { airlight_sample_one(&options, &scene, u[i], &mut sample) };
+                    black_box(sample);
+                }
+            }
+        };
+        let mut times = [const { Vec::new() }; 5];
         let mut queue = queue.clone();
         for _ in 0..ROUNDS {
             times[0].push(time(|| rust(&mut t, &mut pdf, &mut weight)));
             times[1].push(time(|| packed(&mut t, &mut pdf, &mut weight)));
             times[2].push(time(|| strided(&mut queue)));
+            times[3].push(time(|| one(true)));
+            times[4].push(time(|| one(false)));
         }
         assert!(queue.iter().zip(&weight).all(|(item, weight)| item.weight == *weight));
-        let [rust, packed, strided] = times.map(median);
+        let [rust, packed, strided, one, one_in_c] = times.map(|times| median(times).as_secs_f64() * 1e9);
         println!(
-            "{:22} Rust {:5.1} ns/ray, packed x {:.3}, strided x {:.3}",
+            "{:22} Rust {:5.1} ns/ray, packed x {:.3}, strided x {:.3}; one ray: Rust {:4.0} ns, C {:4.0} ns",
             strategy.name(),
-            rust.as_secs_f64() / RAYS as f64 * 1e9,
-            packed.as_secs_f64() / rust.as_secs_f64(),
-            strided.as_secs_f64() / rust.as_secs_f64()
+            rust / RAYS as f64,
+            packed / rust,
+            strided / rust,
+            one / ONES as f64,
+            one_in_c / ONES as f64
         );
     }
 }

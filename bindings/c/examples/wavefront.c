@@ -134,21 +134,22 @@ static int same_in_columns(const item *queue, size_t rays, uint32_t strategy) {
 typedef struct {
     item *queue;
     size_t rays;
+    uint32_t threads;
 } part;
 
 static void *sample_part(void *argument) {
     part *p = argument;
-    sample(p->queue, p->rays, AIRLIGHT_STRATEGY_DEFAULT, 1);
+    sample(p->queue, p->rays, AIRLIGHT_STRATEGY_DEFAULT, p->threads);
     return NULL;
 }
 
-// The same rays by two threads at once; whether everything has the same bits.
+// The same rays by two threads at once, one of them with the pool's; whether everything has the same bits.
 static int same_by_two(const item *queue, size_t rays) {
     item *copy = malloc(rays * sizeof *copy);
     if (copy == NULL) exit(1);
     memcpy(copy, queue, rays * sizeof *copy);
     for (size_t i = 0; i < rays; ++i) memset(copy[i].t, 0, sizeof copy->t);
-    part parts[2] = {{copy, rays / 3}, {copy + rays / 3, rays - rays / 3}};
+    part parts[2] = {{copy, rays / 3, 1}, {copy + rays / 3, rays - rays / 3, 0}};
     pthread_t threads[2];
     for (int k = 0; k < 2; ++k) {
         if (pthread_create(&threads[k], NULL, sample_part, &parts[k]) != 0) exit(1);

@@ -9,14 +9,14 @@ use core::ffi::CStr;
 ///
 /// # Safety
 /// It starts with a `usize` and any bits are a value of it.
-pub(crate) unsafe trait Sized: Copy {
+pub(crate) unsafe trait Argument: Copy {
     const TYPE: &'static str;
 }
 
-macro_rules! sized {
+macro_rules! arguments {
     ($($name:ident)*) => {$(
         // SAFETY: the first field is `struct_size`; all are numbers, pointers and arrays of both.
-        unsafe impl Sized for $name {
+        unsafe impl Argument for $name {
             const TYPE: &'static str = stringify!($name);
         }
 
@@ -30,14 +30,14 @@ macro_rules! sized {
     )*};
 }
 
-sized!(airlight_options airlight_emitters airlight_media airlight_batch airlight_samples airlight_values);
-sized!(airlight_choices airlight_counts airlight_scene airlight_one_sample);
+arguments!(airlight_options airlight_emitters airlight_media airlight_batch airlight_samples airlight_values);
+arguments!(airlight_choices airlight_counts airlight_scene airlight_one_sample);
 
 /// `Ok` if the size that stands in a struct is its size.
 ///
 /// # Safety
 /// `pointer` is NULL or one to a `T`.
-unsafe fn check_size<T: Sized>(field: &str, pointer: *const T) -> Result<()> {
+unsafe fn check_size<T: Argument>(field: &str, pointer: *const T) -> Result<()> {
     if pointer.is_null() {
         return Err(Failure::null(field));
     }
@@ -54,7 +54,7 @@ unsafe fn check_size<T: Sized>(field: &str, pointer: *const T) -> Result<()> {
 ///
 /// # Safety
 /// `pointer` is NULL or one to a `T`.
-pub(crate) unsafe fn read<T: Sized>(field: &str, pointer: *const T) -> Result<T> {
+pub(crate) unsafe fn read<T: Argument>(field: &str, pointer: *const T) -> Result<T> {
     // SAFETY: as promised, and it is no smaller than a `T`.
     unsafe {
         check_size(field, pointer)?;
@@ -66,7 +66,7 @@ pub(crate) unsafe fn read<T: Sized>(field: &str, pointer: *const T) -> Result<T>
 #[derive(Debug)]
 pub(crate) struct Place<T>(*mut T);
 
-impl<T: Sized> Place<T> {
+impl<T: Argument> Place<T> {
     /// That of a result.
     ///
     /// # Safety

@@ -128,7 +128,7 @@ impl Lights {
 ///
 /// # Safety
 /// As [`RaysInMedia::new`].
-pub(crate) unsafe fn table_of_lights(batch: &airlight_batch) -> Result<Vec<Emitter>> {
+pub(crate) unsafe fn table_of_lights(batch: &airlight_batch, _: &mut Columns) -> Result<Vec<Emitter>> {
     // SAFETY: as promised.
     let emitters = unsafe { read("batch.emitters", batch.emitters)? };
     if emitters.table.is_null() {

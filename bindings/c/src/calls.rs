@@ -8,6 +8,41 @@ use crate::span::Name;
 use crate::status::{Failure, Result};
 use airlight::{Counts, Emitters, Error, Media, Rays, Sampler, Samples};
 
+/// What every call takes; `L` is what lights the rays.
+struct Call<L> {
+    options: Options,
+    columns: Columns,
+    rays: RaysInMedia,
+    lights: L,
+    counts: CountsPlace,
+}
+
+impl<L> Call<L> {
+    /// A call with what `lights` reads of the batch.
+    ///
+    /// # Safety
+    /// All pointers are NULL or what they are said to be.
+    unsafe fn new(
+        options: *const airlight_options,
+        batch: *const airlight_batch,
+        counts: *mut airlight_counts,
+        lights: unsafe fn(&airlight_batch, &mut Columns) -> Result<L>,
+    ) -> Result<Self> {
+        // SAFETY: as promised.
+        unsafe {
+            let batch = read("batch", batch)?;
+            let mut columns = Columns::new(batch.count);
+            Ok(Self {
+                options: Options::read(options)?,
+                rays: RaysInMedia::new(&batch, &mut columns)?,
+                lights: lights(&batch, &mut columns)?,
+                counts: CountsPlace::new(counts)?,
+                columns,
+            })
+        }
+    }
+}
+
 /// Samples.
 ///
 /// # Safety
@@ -19,15 +54,10 @@ pub(crate) unsafe fn sample(
     counts: *mut airlight_counts,
 ) -> Result<()> {
     // SAFETY: as promised.
-    let (options, batch, samples, place) = unsafe {
-        let (batch, samples) = (read("batch", batch)?, read("samples", samples)?);
-        (Options::read(options)?, batch, samples, CountsPlace::new(counts)?)
-    };
+    let (call, samples) = unsafe { (Call::new(options, batch, counts, Lights::new)?, read("samples", samples)?) };
+    let Call { options, mut columns, rays, lights, counts: place } = call;
     let sampler = options.sampler()?;
     let per_ray = at_least_one("samples.per_ray", samples.per_ray)?;
-    let mut columns = Columns::new(batch.count);
-    // SAFETY: as promised.
-    let (rays, lights) = unsafe { (RaysInMedia::new(&batch, &mut columns)?, Lights::new(&batch, &mut columns)?) };
     check_unused("samples.weight", samples.weight.map(|column| column.data.is_null()), rays.channels())?;
     let u = columns.floats("samples.u".into(), samples.u, per_ray)?;
     let t = columns.output("samples.t".into(), samples.t, per_ray)?;
@@ -71,15 +101,10 @@ pub(crate) unsafe fn at_distances(
     counts: *mut airlight_counts,
 ) -> Result<()> {
     // SAFETY: as promised.
-    let (options, batch, values, place) = unsafe {
-        let (batch, values) = (read("batch", batch)?, read("values", values)?);
-        (Options::read(options)?, batch, values, CountsPlace::new(counts)?)
-    };
+    let (call, values) = unsafe { (Call::new(options, batch, counts, Lights::new)?, read("values", values)?) };
+    let Call { options, mut columns, rays, lights, counts: place } = call;
     let sampler = options.sampler()?;
     let per_ray = at_least_one("values.per_ray", values.per_ray)?;
-    let mut columns = Columns::new(batch.count);
-    // SAFETY: as promised.
-    let (rays, lights) = unsafe { (RaysInMedia::new(&batch, &mut columns)?, Lights::new(&batch, &mut columns)?) };
     check_unused("values.value", values.value.map(|column| column.data.is_null()), 1)?;
     let t = columns.floats("values.t".into(), values.t, per_ray)?;
     let value = columns.output(Name("values.value", Some(0)), values.value[0], per_ray)?;
@@ -106,14 +131,9 @@ pub(crate) unsafe fn radiance(
     counts: *mut airlight_counts,
 ) -> Result<()> {
     // SAFETY: as promised.
-    let (options, batch, values, place) = unsafe {
-        let (batch, values) = (read("batch", batch)?, read("values", values)?);
-        (Options::read(options)?, batch, values, CountsPlace::new(counts)?)
-    };
+    let (call, values) = unsafe { (Call::new(options, batch, counts, Lights::new)?, read("values", values)?) };
+    let Call { options, mut columns, rays, lights, counts: place } = call;
     let integral = options.integral();
-    let mut columns = Columns::new(batch.count);
-    // SAFETY: as promised.
-    let (rays, lights) = unsafe { (RaysInMedia::new(&batch, &mut columns)?, Lights::new(&batch, &mut columns)?) };
     check_unused("values.value", values.value.map(|column| column.data.is_null()), rays.channels())?;
     let value = columns.output(Name("values.value", Some(0)), values.value[0], 1)?;
 
@@ -139,14 +159,9 @@ pub(crate) unsafe fn choose(
     counts: *mut airlight_counts,
 ) -> Result<()> {
     // SAFETY: as promised.
-    let (options, batch, choices, place) = unsafe {
-        let (batch, choices) = (read("batch", batch)?, read("choices", choices)?);
-        (Options::read(options)?, batch, choices, CountsPlace::new(counts)?)
-    };
+    let (call, choices) = unsafe { (Call::new(options, batch, counts, table_of_lights)?, read("choices", choices)?) };
+    let Call { options, mut columns, rays, lights: table, counts: place } = call;
     let integral = options.integral();
-    let mut columns = Columns::new(batch.count);
-    // SAFETY: as promised.
-    let (rays, table) = unsafe { (RaysInMedia::new(&batch, &mut columns)?, table_of_lights(&batch)?) };
     let weights = columns.table("choices.weights".into(), choices.weights, table.len())?;
     let u = columns.floats("choices.u".into(), choices.u, 1)?;
     let index = columns.index_output("choices.index".into(), choices.index)?;

@@ -51,7 +51,8 @@ macro_rules! in_default_environment {
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 macro_rules! in_default_environment {
     ($function:ident($($argument:ident),*)) => {
-        $function($($argument),*)
+        // SAFETY: what the caller of the ABI promises.
+        unsafe { $function($($argument),*) }
     };
 }
 

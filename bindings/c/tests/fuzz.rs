@@ -153,7 +153,7 @@ impl Fuzz {
         };
         // SAFETY: columns lie within the memory or are too long for any, tables are as long as said.
         unsafe {
-            match numbers[2] % 6 {
+            match numbers[2] % 7 {
                 0 | 1 => {
                     let samples = airlight_samples {
                         struct_size: self.size::<airlight_samples>(),
@@ -169,6 +169,22 @@ impl Fuzz {
                 2 => airlight_pdf(&options, &batch, &values, &mut counts),
                 3 => airlight_evaluate(&options, &batch, &values, &mut counts),
                 4 => airlight_radiance(&options, &batch, &values, &mut counts),
+                5 => {
+                    let scene = airlight_scene {
+                        struct_size: self.size::<airlight_scene>(),
+                        ray: airlight_ray {
+                            origin: [0; 3].map(|_| self.float()),
+                            direction: [0.0, self.float() * 0.01, 1.0],
+                            t_min: self.float() * 0.1,
+                            t_max: self.float() + 1.0,
+                        },
+                        emitter: emitter_table[0],
+                        medium: medium_table[0],
+                    };
+                    let mut sample =
+                        airlight_one_sample { struct_size: self.size::<airlight_one_sample>(), ..Default::default() };
+                    airlight_sample_one(&options, &scene, self.float(), &mut sample)
+                }
                 _ => {
                     emitters.index.data = core::ptr::null();
                     let index = self.column(count, 4);
