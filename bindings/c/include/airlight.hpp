@@ -52,12 +52,12 @@ struct View {
         return view;
     }
 
-    // The same numbers, so many for each ray. Of a number that they are no multiple of, none fit.
+    // The same numbers, so many for each ray; a call refuses them if they are no multiple of that.
     constexpr View by(std::size_t per_ray) const {
         View view = *this;
         const bool fits = per_ray > 0 && size % per_ray == 0;
-        view.size = fits ? size / per_ray : static_cast<std::size_t>(-1);
-        view.width = per_ray;
+        view.size = fits ? size / per_ray : size;
+        view.width = fits ? per_ray : 0;
         return view;
     }
 };
@@ -187,16 +187,19 @@ class Call {
     // The same column in C, if it has an element of so many numbers for each ray.
     template <class C, class T>
     C column(const View<T> &view, const char *name, std::size_t width = 1) {
-        if (view.data != nullptr) check(view.size, count_, name), check(view.width, width, name);
+        if (view.data != nullptr) {
+            check(view.size, count_, name, " elements");
+            check(view.width, width, name, " numbers for each ray");
+        }
         return {view.data, view.stride};
     }
     template <class C, class T, std::size_t N>
     void columns(C (&to)[N], const std::array<View<T>, N> &from, const char *name, std::size_t width = 1) {
         for (std::size_t k = 0; k < N; ++k) to[k] = column<C>(from[k], name, width);
     }
-    void check(std::size_t found, std::size_t expected, const char *name) {
+    void check(std::size_t found, std::size_t expected, const char *name, const char *what) {
         if (found == expected || !wrong_.empty()) return;
-        wrong_ = std::string(name) + " has " + std::to_string(found) + " elements, expected " + std::to_string(expected);
+        wrong_ = std::string(name) + " has " + std::to_string(found) + what + ", expected " + std::to_string(expected);
     }
 
     void lit_by(const Emitters &emitters) {
@@ -322,7 +325,7 @@ inline Result choose(const Options &options, const Rays &rays, View<const airlig
                      airlight_counts *counts = nullptr) {
     detail::Call call(options, rays, nullptr, media);
     call.lit_by_any(table);
-    call.check(weights.size, table.size, "weights");
+    call.check(weights.size, table.size, "weights", " elements");
     airlight_choices choices = {};
     choices.struct_size = sizeof choices;
     choices.u = call.column<airlight_column>(u, "u");

@@ -8,12 +8,14 @@
 
 #if defined(__x86_64__)
 #include <xmmintrin.h>
-// Flush-to-zero and denormals-are-zero; rounding to nearest, down, up, towards zero.
-static const uint32_t flush = 0x8040, rounding[4] = {0x0000, 0x2000, 0x4000, 0x6000}, mask = 0xe040;
+// Flush-to-zero and denormals-are-zero; rounding to nearest, down, up, towards zero; traps of invalid operations and of
+// division by zero, which are on where these bits are not; all of them.
+static const uint32_t flush = 0x8040, rounding[4] = {0x0000, 0x2000, 0x4000, 0x6000}, traps = 0x0280, mask = 0xe2c0;
 static uint64_t get(void) { return _mm_getcsr(); }
 static void set(uint64_t state) { _mm_setcsr((unsigned)state); }
 #elif defined(__aarch64__)
-static const uint32_t flush = 1u << 24, rounding[4] = {0, 2u << 22, 1u << 22, 3u << 22}, mask = 7u << 22;
+// The same; few processors have traps.
+static const uint32_t flush = 1u << 24, rounding[4] = {0, 2u << 22, 1u << 22, 3u << 22}, traps = 0, mask = 7u << 22;
 static uint64_t get(void) {
     uint64_t state;
     __asm__ volatile("mrs %0, fpcr" : "=r"(state));
@@ -30,7 +32,7 @@ typedef struct {
     airlight_status status;
 } results;
 
-static float origin[3][RAYS], direction[3][RAYS], t_max[RAYS], u[RAYS], at[RAYS];
+static float origin[3][RAYS], direction[3][RAYS], t_min[RAYS], t_max[RAYS], u[RAYS], at[RAYS];
 static results expected, found;
 
 // All calls.
@@ -45,6 +47,8 @@ static void calls(results *out, uint32_t threads) {
     airlight_batch batch = {.struct_size = sizeof batch, .count = RAYS, .emitters = &emitters, .media = &media};
     for (int k = 0; k < 3; ++k) batch.origin[k].data = origin[k], batch.direction[k].data = direction[k];
     batch.t_max.data = t_max;
+    // Slices as they are on the pool's threads, block by block on this one.
+    if (threads == 0) batch.t_min.data = t_min;
     airlight_samples samples = {.struct_size = sizeof samples, .per_ray = 1, .u = {u, 0}};
     samples.t.data = out->t, samples.pdf.data = out->pdf, samples.weight[0].data = out->weight, samples.r.data = out->r;
     airlight_values values = {.struct_size = sizeof values, .per_ray = 1, .t = {at, 0}};
@@ -93,7 +97,7 @@ int main(void) {
     int failures = 0;
     // The first call starts the threads of the pool, which are to have the default environment all the same.
     for (int i = 0; i < 16; ++i) {
-        uint64_t state = (before & ~(uint64_t)mask) | rounding[i / 2 % 4] | (i % 2 == 0 ? flush : 0);
+        uint64_t state = (before & ~(uint64_t)mask) | rounding[i / 2 % 4] | (i % 2 == 0 ? flush : traps);
         set(state);
         calls(&found, i / 8 == 0 ? 0 : 1);
         uint64_t after = get();

@@ -98,6 +98,13 @@ int main() {
         wrong.u.size -= 1;
         return airlight::sample(options, rays, lamps[0], fog, wrong);
     });
+    good = good && throws("t has 0 numbers for each ray, expected 2", [&] {
+        airlight::Samples wrong = samples;
+        std::vector<float> short_of_one(2 * n - 1);
+        wrong.t = Output(short_of_one).by(2);
+        wrong.t.size = n;
+        return airlight::sample(options, rays, lamps[0], fog, wrong);
+    });
     good = good && throws("weights has 2 elements, expected 1", [&] {
         return airlight::choose(options, rays, {lamps, 1}, weights, fog, in(&Item::u, 0, 1), index, probability);
     });
