@@ -21,7 +21,7 @@ have() {
     done
 }
 
-check_c() {
+check_c() (
     cd "$root/bindings/c"
     cargo fmt --check
     cargo clippy --locked --release --all-targets -- -D warnings
@@ -30,19 +30,17 @@ check_c() {
     what="memory" && { have valgrind || true; }
     AIRLIGHT_FUZZ=${AIRLIGHT_FUZZ:-1000000} cargo test --locked --release
     RUSTDOCFLAGS="-D warnings" cargo doc --locked --release --no-deps --document-private-items
-}
+)
 
-check_install() {
+check_install() (
     what="the installed library"
     have cargo-cinstall pkg-config cmake cc c++ || return 0
-    local prefix
     prefix=$(mktemp -d)
     cd "$root/bindings/c"
     cargo cinstall --locked --release --prefix "$prefix"
     cd "$prefix"
     PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name airlight.pc)")
     export PKG_CONFIG_PATH
-    local flags libraries
     read -ra flags <<< "$(pkg-config --cflags --libs airlight)"
     libraries=$(pkg-config --variable=libdir airlight)
     cc -std=c99 "$root/bindings/c/examples/wavefront.c" -o wavefront "${flags[@]}" -lm -lpthread
@@ -54,10 +52,10 @@ check_install() {
     build/wavefront
     build/pathtrace fog.ppm 64
     rm -r "$prefix"
-}
+)
 
-check_aarch64() {
-    local target=aarch64-unknown-linux-gnu
+check_aarch64() (
+    target=aarch64-unknown-linux-gnu
     what=$target
     have aarch64-linux-gnu-gcc qemu-aarch64 || return 0
     if ! [ -d "$(rustc --print sysroot)/lib/rustlib/$target" ]; then
@@ -66,11 +64,11 @@ check_aarch64() {
     fi
     cd "$root/bindings/c"
     CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_LINKER=aarch64-linux-gnu-gcc cargo build --locked --release --target $target
-    local program=$CARGO_TARGET_DIR/$target/environment
+    program=$CARGO_TARGET_DIR/$target/environment
     aarch64-linux-gnu-gcc -std=c99 -O2 -I include tests/environment.c \
         "$CARGO_TARGET_DIR/$target/release/libairlight_c.a" -o "$program" -lpthread -lm -ldl
     qemu-aarch64 -L /usr/aarch64-linux-gnu "$program"
-}
+)
 
 # Here the package for Python has its place: check_python.
 check_c
