@@ -37,7 +37,8 @@ check_install() (
     have cargo-cinstall pkg-config cmake cc c++ || return 0
     prefix=$(mktemp -d)
     cd "$root/bindings/c"
-    cargo cinstall --locked --release --prefix "$prefix"
+    # A folder of its own, as cargo-c contains another cargo, and the two would build anew after each other.
+    CARGO_TARGET_DIR=$CARGO_TARGET_DIR/installed cargo cinstall --locked --release --prefix "$prefix"
     cd "$prefix"
     PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name airlight.pc)")
     export PKG_CONFIG_PATH

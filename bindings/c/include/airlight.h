@@ -200,7 +200,7 @@ typedef struct airlight_index_column {
 typedef struct airlight_emitters {
   // `sizeof(airlight_emitters)`.
   size_t struct_size;
-  // The table; NULL: there are columns instead.
+  // The table; columns are not looked at then. NULL: there are columns instead.
   const struct airlight_emitter *table;
   // How many entries it has.
   size_t table_count;
@@ -232,7 +232,7 @@ typedef struct airlight_medium {
 typedef struct airlight_media {
   // `sizeof(airlight_media)`.
   size_t struct_size;
-  // The table; NULL: there are columns instead.
+  // The table; columns are not looked at then. NULL: there are columns instead.
   const struct airlight_medium *table;
   // How many entries it has, all with as many channels.
   size_t table_count;
@@ -337,7 +337,7 @@ typedef struct airlight_choices {
   size_t struct_size;
   // Uniform variates in [0, 1], one for each ray, independent of those that distances are sampled with.
   struct airlight_column u;
-  // A weight for each entry of `emitters->table`, finite and not negative, such as its mean intensity.
+  // A weight for each entry of the emitters' table (whose `index` is NULL, as it is what is chosen), finite and not negative, such as its mean intensity.
   struct airlight_column weights;
   // Which entry was chosen for each ray.
   struct airlight_index_output index;

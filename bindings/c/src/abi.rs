@@ -205,7 +205,7 @@ pub struct airlight_medium {
 pub struct airlight_emitters {
     /// `sizeof(airlight_emitters)`.
     pub struct_size: usize,
-    /// The table; NULL: there are columns instead.
+    /// The table; columns are not looked at then. NULL: there are columns instead.
     pub table: *const airlight_emitter,
     /// How many entries it has.
     pub table_count: usize,
@@ -227,7 +227,7 @@ pub struct airlight_emitters {
 pub struct airlight_media {
     /// `sizeof(airlight_media)`.
     pub struct_size: usize,
-    /// The table; NULL: there are columns instead.
+    /// The table; columns are not looked at then. NULL: there are columns instead.
     pub table: *const airlight_medium,
     /// How many entries it has, all with as many channels.
     pub table_count: usize,
@@ -308,7 +308,7 @@ pub struct airlight_choices {
     pub struct_size: usize,
     /// Uniform variates in [0, 1], one for each ray, independent of those that distances are sampled with.
     pub u: airlight_column,
-    /// A weight for each entry of `emitters->table`, finite and not negative, such as its mean intensity.
+    /// A weight for each entry of the emitters' table (whose `index` is NULL, as it is what is chosen), finite and not negative, such as its mean intensity.
     pub weights: airlight_column,
     /// Which entry was chosen for each ray.
     pub index: airlight_index_output,

@@ -2,7 +2,9 @@
 
 mod host;
 
-use airlight::{Emitter, Emitters, Error, Integral, Media, Medium, Nodes, Rays, Sampler, Samples, Strategy};
+use airlight::{
+    Backend, Emitter, Emitters, Error, Integral, Media, Medium, Nodes, Precision, Rays, Sampler, Samples, Strategy,
+};
 use airlight_c::*;
 use core::ptr::null;
 use host::{Column, Host, Layout, PACKED, result};
@@ -78,13 +80,15 @@ struct Known<'a> {
     media: Media<'a>,
 }
 
+/// Columns of three coordinates.
+fn three(columns: &[Vec<f32>; 3]) -> [&[f32]; 3] {
+    columns.each_ref().map(|column| &column[..])
+}
+
 /// Has `call` make a call from Rust.
 fn known<R>(host: &Host, from: From, call: impl FnOnce(&Known<'_>) -> Result<R, Error>) -> R {
     let emitters: Vec<Emitter> = host.emitters.iter().map(|e| emitter(e).unwrap()).collect();
     let media: Vec<Medium> = host.media.iter().map(|m| Medium::new(m.mu_a[0], m.mu_s[0], m.g).unwrap()).collect();
-    let three = |columns: &'_ [Vec<f32>; 3]| -> [*const [f32]; 3] { columns.each_ref().map(|c| &raw const c[..]) };
-    // SAFETY: the columns of the host, which outlive the call.
-    let three = |columns| three(columns).map(|column| unsafe { &*column });
     let rays = Rays::new(three(&host.origin), three(&host.direction), &host.t_min, &host.t_max);
     let (emitters, media) = match from {
         From::One => (Emitters::one(emitters[0]), Media::one(media[0])),
@@ -152,6 +156,39 @@ fn samples_are_those_of_rust() {
             }
         }
     }
+}
+
+#[test]
+fn precision_and_backend_are_those_asked_for() {
+    let host = Host::new(3, 5_000, 1);
+    let mut different = Vec::new();
+    for backend in Backend::available() {
+        let number = ["portable", "avx2", "avx512"].iter().position(|&name| name == backend.name()).unwrap() as u32 + 1;
+        for (precision, &of_rust) in (0..).zip(Precision::ALL) {
+            let mut expected = [vec![0.0; 5_000], vec![0.0; 5_000]];
+            let [t, pdf] = &mut expected;
+            known(&host, From::Table, |Known { rays, emitters, media }| {
+                let sampler = Sampler::new(Strategy::EquiAngular).with_backend(backend).with_precision(of_rust)?;
+                sampler.sample(rays, emitters, media, &host.u, &mut Samples::new(t, pdf))
+            });
+            let strategy = airlight_strategy::EquiAngular as u32;
+            let options = airlight_options { strategy, precision, backend: number, ..Default::default() };
+            let lent = lend(&host, PACKED, From::Table);
+            let mut u = Column::of(PACKED, 1, &bits(&host.u));
+            let mut out = [(); 2].map(|()| Column::new(PACKED, 5_000, 1));
+            let mut samples = airlight_samples { per_ray: 1, u: u.input(), ..Default::default() };
+            (samples.t, samples.pdf) = (out[0].output(), out[1].output());
+            // SAFETY: the columns have as many elements as the batch has rays.
+            result(unsafe { airlight_sample(&options, &lent.batch, &samples, core::ptr::null_mut()) }).unwrap();
+            let found = out.each_mut().map(|column| column.bits(5_000));
+            assert_eq!(found, expected.each_ref().map(|column| bits(column)), "{} {of_rust}", backend.name());
+            if !different.contains(&found) {
+                different.push(found);
+            }
+        }
+    }
+    // Otherwise it would not matter what is asked for.
+    assert!(different.len() > 1);
 }
 
 #[test]
