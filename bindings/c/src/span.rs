@@ -88,6 +88,7 @@ mod tests {
         let t = span(1000, 48, 100);
         assert!(!t.may_overlap(&span(1004, 48, 100)));
         assert!(!t.may_overlap(&span(996, 48, 100)));
+        assert!(!t.may_overlap(&span(1004 + 3 * 48, 48, 10)));
         assert!(t.may_overlap(&t));
         assert!(t.may_overlap(&span(1003, 48, 100)));
         assert!(t.may_overlap(&span(997, 48, 100)));

@@ -135,12 +135,12 @@ fn samples_are_those_of_rust() {
                     Sampler::new(strategy).sample(rays, emitters, media, &host.u, &mut out)
                 });
 
-                // Elements of several numbers need a larger stride.
-                let layout =
-                    Layout { stride: if per_ray > 8 { layout.stride * per_ray } else { layout.stride }, ..layout };
-                let lent = lend(&host, layout, from);
-                let mut u = Column::of(layout, per_ray, &bits(&host.u));
-                let mut out = [(); 4].map(|()| Column::new(layout, rays, per_ray));
+                // Elements of several numbers need a larger stride. Some columns are packed where others are not.
+                let stride = if per_ray > 8 { layout.stride * per_ray } else { layout.stride };
+                let lent = lend(&host, Layout { stride, ..layout }, from);
+                let layouts = [Layout { stride, ..layout }, PACKED];
+                let mut u = Column::of(layouts[(number + options.threads) as usize % 2], per_ray, &bits(&host.u));
+                let mut out = [0, 1, 0, 1].map(|i| Column::new(layouts[i], rays, per_ray));
                 let mut samples = airlight_samples { per_ray, u: u.input(), ..Default::default() };
                 (samples.t, samples.pdf) = (out[0].output(), out[1].output());
                 (samples.weight[0], samples.r) = (out[2].output(), out[3].output());
