@@ -248,11 +248,12 @@ pub(crate) struct ChannelGroups<'r, I: Isa> {
 }
 
 impl<I: Isa> ChannelGroups<'_, I> {
-    /// The channels of lane group `index`.
+    /// The channels of lane group `index`, where media are coloured.
     #[cfg_attr(optimized, inline(always))]
-    pub(crate) fn lanes(&self, isa: I, index: usize) -> ChannelLanes<I> {
-        let [a0, a1, a2, a3, s0, s1, s2, s3, ..] = self.groups.lanes(isa, index);
-        ChannelLanes { mu_t: [a0 + s0, a1 + s1, a2 + s2, a3 + s3], mu_s: [s0, s1, s2, s3], count: self.count }
+    pub(crate) fn lanes(coloured: Option<&Self>, isa: I, index: usize) -> Option<ChannelLanes<I>> {
+        let Self { groups, count } = coloured?;
+        let [a0, a1, a2, a3, s0, s1, s2, s3, ..] = groups.lanes(isa, index);
+        Some(ChannelLanes { mu_t: [a0 + s0, a1 + s1, a2 + s2, a3 + s3], mu_s: [s0, s1, s2, s3], count: *count })
     }
 }
 

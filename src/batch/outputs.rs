@@ -60,7 +60,7 @@ impl OfRuns for Column {
 pub(crate) struct Columns<const N: usize>;
 
 /// The first ones of `N` columns.
-pub(crate) fn columns<'a, const N: usize, const C: usize>(given: [&'a mut [f32]; C]) -> [Option<&'a mut [f32]>; N] {
+pub(crate) fn columns<const N: usize, const C: usize>(given: [&mut [f32]; C]) -> [Option<&mut [f32]>; N] {
     let mut given = given.into_iter();
     [(); N].map(|()| given.next())
 }

@@ -50,10 +50,8 @@ impl<I: Isa> Block<'_, I> {
     /// The channels of coloured media.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn channels(&self, isa: I) -> Option<ChannelGroups<'_, I>> {
-        match &self.media.channels {
-            Some(channels) => Some(channels.groups(isa)),
-            None => None,
-        }
+        let channels = self.media.channels.as_ref()?;
+        Some(channels.groups(isa))
     }
 
     /// The geometries, for a pass.
@@ -468,10 +466,7 @@ pub(super) fn set_up<'r, I: Isa, Home, D: Density<I>>(
                     let group = block.groups.start + record;
                     media.renew(isa, record, &mut medium);
                     let geometry = geometries.get(record);
-                    let of_group = match &channels {
-                        Some(channels) => Some(channels.lanes(isa, record)),
-                        None => None,
-                    };
+                    let of_group = ChannelGroups::lanes(channels.as_ref(), isa, record);
                     SetUp::new(isa, &rays.lanes(isa, group), geometry, &medium, of_group.as_ref())
                 },
             )
