@@ -1,4 +1,4 @@
-//! The radiance of a ray, without a sample; and a choice of emitters by it.
+//! The radiance of a ray without a sample, and the choice of an emitter in proportion to it.
 
 mod nodes;
 pub(crate) mod rule;
@@ -15,23 +15,25 @@ use core::slice::from_mut;
 /// The single-scattered radiance of rays per unit of the emitter's intensity \[1/m^2\], without a sample and so without
 /// noise: the integral of the integrand `mu_s T rho N / r^2` over `t`.
 ///
-/// It is Gauss and Legendre's rule in the variable of the product densities, in which the integrand is nearly a polynomial.
-/// Nothing is tabulated and nothing cancels. Where others have tables (Sun et al. 2005) or series (Pegoraro et al. 2009),
-/// eight evaluations leave the error of f32.
+/// The method is Gauss and Legendre's rule in the variable of the product densities, in which the integrand is nearly a
+/// polynomial: (7.1) to (7.3) of [mathematics](crate::guide::mathematics#7-the-integral-without-a-sample). It has no table and
+/// no cancellation. Where others have tables (Sun et al. 2005) or series (Pegoraro et al. 2009), eight evaluations reach the
+/// error of f32.
 ///
-/// # Errors of the result
+/// # Accuracy
 ///
-/// Relative, against quadrature in f64: for half of the rays, for 99 %, and for all of 8192 under each of two seeds. The
-/// families are those of `airlight accuracy`.
+/// Relative error of [`radiance`](Self::radiance) against quadrature in f64, with [`Precision::Exact`]: the bound for half of the
+/// rays, for 99 %, and for all of 8192 under each of two seeds, by number of nodes. The families of inputs are those of
+/// `airlight accuracy`; the test is `tests/radiance.rs`.
 ///
 #[doc = include_str!("integral/errors.md")]
 ///
-/// The largest ones of `peaks` are backward peaks next to an emitter that shines across the ray. Emitters far away and short
-/// intervals have errors of rounding alone.
+/// The largest errors of `peaks` are those of backward peaks next to an emitter that shines across the ray. `far-away` and
+/// `short-intervals` have rounding errors alone.
 ///
-/// [`Precision::Fast`] leaves 1.2e-5 more for 99 % of ordinary rays, and misjudges light as it says
-/// [there](Precision). At `abs(g)` = 1 the phase function is 0 beside its peak, and so is the integral. It is 0 too where
-/// the transmittance to the start of the lit part is below f32's range, and has few digits where that is below 1e-30.
+/// [`Precision::Fast`] adds at most 1.2e-5 for 99 % of rays of [ordinary scenes](Precision), and misjudges light as stated
+/// [there](Precision). At `abs(g)` = 1 the phase function is 0 beside its peak, and so is the integral. The integral is also 0
+/// where the transmittance to the start of the lit part is below f32's range, and has few digits where that is below 1e-30.
 #[derive(Clone, Copy, Debug)]
 pub struct Integral {
     nodes: Nodes,
@@ -41,15 +43,15 @@ pub struct Integral {
 }
 
 impl Integral {
-    /// The integral with so many nodes, on geometry as exact as there is, the widest backend of this machine and all threads
-    /// of the pool.
+    /// The integral with this number of nodes, in exact precision, on the widest backend of this machine and all threads of the
+    /// pool.
     #[must_use]
     pub fn new(nodes: Nodes) -> Self {
         let (precision, threads) = (Precision::default(), Threads::default());
         Self { nodes, precision, backend: Backend::detect(), threads }
     }
 
-    /// The same on geometry of another precision.
+    /// The same with geometry of another precision.
     #[must_use]
     pub fn with_precision(self, precision: Precision) -> Self {
         Self { precision, ..self }
@@ -67,25 +69,25 @@ impl Integral {
         Self { threads, ..self }
     }
 
-    /// How many nodes it has.
+    /// The number of nodes.
     #[must_use]
     pub fn nodes(&self) -> Nodes {
         self.nodes
     }
 
-    /// Its precision.
+    /// The precision.
     #[must_use]
     pub fn precision(&self) -> Precision {
         self.precision
     }
 
-    /// Its backend.
+    /// The backend.
     #[must_use]
     pub fn backend(&self) -> Backend {
         self.backend
     }
 
-    /// Its threads.
+    /// The threads of a call.
     #[must_use]
     pub fn threads(&self) -> Threads {
         self.threads
@@ -95,11 +97,17 @@ impl Integral {
         Quadrature { nodes: self.nodes, precision: self.precision }
     }
 
-    /// Writes the radiance of each ray.
+    /// Computes the radiance of each ray.
     ///
-    /// What is written is finite and not negative, and 0 for an empty or invalid ray. [`Counts::sampled`] counts the rays of
-    /// which something is lit. Equal inputs give equal bits, wherever they stand in a batch and however many threads there
-    /// are.
+    /// The output is 0 for an empty or invalid ray. [`Counts::sampled`] counts the rays of which a part is lit.
+    ///
+    /// # Accuracy
+    ///
+    /// | output | bound | where | test |
+    /// |---|---|---|---|
+    /// | `radiance` | finite, not negative | any bits | `tests/radiance.rs` |
+    /// | `radiance` | the relative errors of the [table](Self#accuracy) by family and nodes | radiances within the digits of f32 | `tests/radiance.rs` |
+    /// | bits | equal for equal inputs, whatever the place in the batch, its length and the number of threads | default floating-point environment | `tests/radiance.rs` |
     ///
     /// # Errors
     /// [`Error::Length`] if a column has another length than `rays.origin[0]`; [`Error::Empty`] and [`Error::Channels`] as
@@ -154,24 +162,32 @@ impl Integral {
         Ok(road::travel::<road::Radiance>(self.threads, self.backend, self.quadrature(), &inputs, out))
     }
 
-    /// Chooses one emitter of `table` for each ray, in proportion to its weight times the integral of this many nodes, which
-    /// is what it adds to the ray's radiance: writes its index, and the probability with which it was chosen. That is the
-    /// ratio of the two sums to rounding, so that over the table the probabilities add up to 1. [`Nodes::Four`] are enough. Of a
-    /// coloured medium the integral is that of its [mean](Medium::mean).
+    /// Chooses one emitter of `table` for each ray, with a probability in proportion to its weight times its integral, which is
+    /// what it adds to the ray's radiance; writes its index and this probability. [`Nodes::Four`] are enough. In a coloured
+    /// medium the integral is that of the [mean](Medium::mean).
     ///
-    /// `weights` has one value for each emitter, such as the mean of its intensity over the channels; an emitter with the
-    /// weight 0 is never chosen. `u` has a variate in `[0, 1]` for each ray; it must be independent of those that distances are
-    /// then sampled with, or the estimate is biased. The index increases with `u`, so that stratified and low-discrepancy
-    /// variates keep their order. With the chosen emitter's sample, radiance is intensity times weight
-    /// of the sample over probability.
+    /// - `weights`: one value for each emitter, such as the mean of its intensity over the channels. An emitter with the weight 0
+    ///   is never chosen.
+    /// - `u`: one variate in `[0, 1]` for each ray. It must be independent of the variates of distances, or the estimate is
+    ///   biased. A variate outside `[0, 1]` makes its ray invalid.
+    /// - The estimate of the radiance is the intensity of the chosen emitter, times the weight of its sample, over `probability`.
     ///
-    /// [`Counts::sampled`] counts the rays with a choice: its probability is not 0. Where no emitter lights the ray, or adds
-    /// as much as f32's least number, it is *empty*. A variate outside `[0, 1]` makes its ray invalid. For an empty or invalid
-    /// ray index and probability are 0. Equal inputs give equal bits, wherever they stand in a batch and however many threads
-    /// there are.
+    /// [`Counts::sampled`] counts the rays with a choice: their probability is not 0. A ray is *empty* where no emitter adds more
+    /// than f32's least number. Index and probability of an empty or invalid ray are 0.
     ///
-    /// It takes the time of the integrals, and nothing is allocated. Of a table with more than 32 emitters as many as are in
-    /// a 32nd of it, or one more, are asked twice.
+    /// The call evaluates the integral of every emitter for every ray, and allocates nothing. Of a table with more than 32
+    /// emitters at most a 32nd, rounded up, is evaluated twice.
+    ///
+    /// # Accuracy
+    ///
+    /// | output | bound | where | test |
+    /// |---|---|---|---|
+    /// | `probability` | 2.5e-7, relative, of weight times integral over the sum for all emitters | random rooms, shares from 1e-6 | `tests/choose.rs` |
+    /// | `probability` | the sum over the table is 1 to 2e-7 | random rooms | `tests/choose.rs` |
+    /// | `index` | increases with `u`: stratified and low-discrepancy variates keep their order | random rooms | `tests/choose.rs` |
+    /// | bits | equal for equal inputs, whatever the place in the batch, its length and the number of threads | default floating-point environment | `tests/choose.rs` |
+    ///
+    /// The integral itself has the errors of its [table](Self#accuracy): they add variance, and no bias.
     ///
     /// ```
     /// # use airlight::{Emitter, Emitters, Integral, Media, Medium, Nodes, Rays, Sampler, Samples, Strategy};
@@ -224,7 +240,7 @@ impl Integral {
         Ok(road::travel::<road::Choose<'_>>(self.threads, self.backend, lights, &inputs, (index, probability)))
     }
 
-    /// [`radiance`](Self::radiance) of one ray; of a coloured medium that of its [mean](Medium::mean).
+    /// [`radiance`](Self::radiance) of one ray; in a coloured medium the radiance of the [mean](Medium::mean).
     #[must_use]
     pub fn radiance_one(&self, ray: &Ray, emitter: &Emitter, medium: &Medium) -> f32 {
         let mut radiance = 0.0;

@@ -1,49 +1,54 @@
-//! How exactly a sampler computes.
+//! The precision of the geometry.
 
 use std::fmt;
 use std::str::FromStr;
 
-/// How exactly a [`Sampler`](crate::Sampler) computes: each variant is a contract, held by `airlight accuracy`.
+/// The precision of a [`Sampler`](crate::Sampler) or an [`Integral`](crate::Integral): each variant is a contract, which
+/// `tests/hard_cases.rs`, `tests/accuracy.rs` and `airlight accuracy` check.
 ///
-/// Both are valid for every input: what they return is finite and in range, and the pdf is that of the density that is
-/// sampled, so that an estimate of your own integrand is unbiased, but for light that is misjudged; weights have the error
-/// of the integrand too. Which to take:
+/// - Take `Exact` unless the sampler shows in a profile, and always for infinite rays, emitters on the ray, and distances that
+///   are compared or stored.
+/// - Take `Fast` for primary rays and finite segments that pass the emitter at more than a thousandth of their length.
 ///
-/// - `Exact` unless the sampler shows in a profile;
-/// - `Fast` for primary rays and finite segments that pass the emitter at more than a thousandth of their length;
-/// - `Exact` for infinite rays, emitters on the ray, and distances that are compared or stored.
+/// # Accuracy
+/// Of the strategies that have both precisions, `EquiAngular` and `PointNormal`. *Ordinary scenes* are the families `generic`,
+/// `far-away`, `phase`, `medium` and `ray` of [accuracy](crate::guide::accuracy#families-of-inputs), which has all bounds.
 ///
-/// | error, of the strategies that have both | `Exact` | `Fast` |
-/// |---|---|---|
-/// | `abs(CDF(t) - u)`, ordinary scenes, 99.9 % of rays | 6e-6 | 8e-6 |
-/// | the same beyond the rounding of `t` | 2^-20 at most, all scenes | 8e-6 for 99.9 %, 1e-4 for 99.99 % of rays, ordinary scenes |
-/// | the same next to an emitter, and on infinite rays | 2^-20 at most | 2e-3 for 99.9 % of rays |
-/// | pdf at a given `t`, ordinary scenes, 99 % of rays | 8 ulp | 32 ulp |
-/// | pdf at a given `t`, ordinary scenes, 99.9 % of rays | | 1e-4, relative |
-/// | taken for lit or dark wrongly | none | only where the light is below 1e-5 of that of an emitter faced squarely |
+/// | output | where | `Exact` | `Fast` |
+/// |---|---|---|---|
+/// | all | any bits | finite and in range | finite and in range |
+/// | `t`: `abs(CDF(t) - u)`, 99.9 % of rays | ordinary scenes | 6e-6 (`generic`) | 8e-6 |
+/// | `t`: the same beyond the rounding of `t` | ordinary scenes | 2^-20 at most | 8e-6 for 99.9 %, 1e-4 for 99.99 % of rays |
+/// | | next to an emitter | 2^-20 at most | 2e-3 for 99.9 %, 2e-2 for 99.99 % of rays |
+/// | | infinite rays | 2^-20 at most | 1e-3 for 99.9 %, 4e-3 for 99.99 % of rays |
+/// | | ends next to the plane of an emitter with a normal | 2^-20 at most | none: the lit interval may be a rounding long |
+/// | pdf at a given `t`, 99 % of rays | ordinary scenes | 8 ulp | 32 ulp |
+/// | pdf at a given `t`, 99.9 % of rays | ordinary scenes | | 1e-4, relative |
+/// | pdf at a given `t`, 99.99 % of rays | ordinary scenes | 64 ulp | |
+/// | taken for lit or dark wrongly | all families | none | where the light is below 1e-5 of that of an emitter faced squarely |
 ///
-/// Ordinary scenes are the families `generic`, `far-away`, `phase`, `medium` and `ray` of `airlight accuracy`. Where an end
-/// of the ray lies next to the plane of an emitter with a normal, `Fast` does not tell how much of the ray is lit: such an
-/// interval may be a rounding long, and its CDF then means nothing.
+/// In both precisions the pdf is that of the density that is sampled, so that an estimate of your own integrand is unbiased, but
+/// for light that is misjudged. Weights also have the error of the integrand.
 ///
-/// Both find the geometry of a ray in f64 where f32 is not enough for them: `Fast` where the ray's line passes the emitter
-/// at less than 2^-14 of its distance, and for unusual directions, normals and coordinates; `Exact` also where an end of the
-/// ray is next to the emitter's plane. On a backend without fused multiply-add both do so everywhere, and are the same.
+/// # Arithmetic
+/// Both precisions compute the geometry of a ray in f64 where f32 is not enough for them: `Fast` where the ray's line passes the
+/// emitter at less than 2^-14 of its distance, and for unusual directions, normals and coordinates; `Exact` also where an end of
+/// the ray is next to the emitter's plane. Without fused multiply-add both do so for all rays, and are the same.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Precision {
-    /// As exact as f32 can hold, on every input.
+    /// As exact as f32 can hold, for every input.
     #[default]
     Exact,
-    /// Geometry in f32 alone.
+    /// Geometry in f32, for ordinary scenes.
     Fast,
 }
 
 impl Precision {
-    /// Both.
+    /// Both precisions.
     pub const ALL: &'static [Self] = &[Self::Exact, Self::Fast];
 
-    /// Its name on the command line and in JSON.
+    /// The name on the command line and in JSON.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -59,7 +64,7 @@ impl fmt::Display for Precision {
     }
 }
 
-/// The name of no precision.
+/// The error of parsing a [`Precision`]: the text is the name of none.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnknownPrecision(String);
 

@@ -1,4 +1,4 @@
-//! The public face: sample, pdf, cdf and evaluate, for a batch or for one ray.
+//! The public calls of a density: sample, pdf, cdf and evaluate, for a batch or for one ray.
 
 use crate::batch::{Counts, Emitters, Inputs, Media, Rays, Samples, columns};
 use crate::road::Method;
@@ -11,9 +11,9 @@ use core::slice::from_mut;
 ///
 /// # Floating-point environment
 ///
-/// Rust code assumes the default one: rounding to nearest, subnormal numbers kept. A host that sets flush-to-zero or
-/// denormals-are-zero on its own thread gets it in small batches, which run on the calling thread, and not in large ones,
-/// which run on those of the pool: the two then differ in bits.
+/// Rust code assumes the default environment: rounding to nearest, subnormal numbers kept. If a host sets flush-to-zero or
+/// denormals-are-zero on its own thread, small batches, which run on the calling thread, use these flags, and large batches,
+/// which run on threads of the pool, do not: their bits then differ.
 ///
 /// With both flags set, `t`, `pdf` and `r` keep their bits at ordinary scales: lengths from a millimetre to a kilometre, and
 /// an emitter that is not on the ray's line. Weights and integrands keep theirs there unless a factor of them is below
@@ -26,9 +26,7 @@ pub struct Sampler {
     threads: Threads,
 }
 
-/// One sample, as [`Samples`] holds many.
-///
-/// It may get more fields, as those may.
+/// One sample: an entry of the columns of [`Samples`]. Later versions may add fields to both.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Sample {
@@ -36,14 +34,14 @@ pub struct Sample {
     pub t: f32,
     /// Probability density over distance \[1/m\].
     pub pdf: f32,
-    /// `mu_s T rho N / (r^2 pdf)` \[1/m^2\].
+    /// Integrand over density: `mu_s T rho N / (r^2 pdf)` \[1/m^2\].
     pub weight: f32,
     /// Distance from the sample to the emitter \[m\].
     pub r: f32,
 }
 
 impl Sampler {
-    /// A sampler of `strategy`, as exact as there is, on the widest backend of this machine and all threads of the pool.
+    /// A sampler of `strategy` in exact precision, on the widest backend of this machine and all threads of the pool.
     #[must_use]
     pub fn new(strategy: Strategy) -> Self {
         let (precision, threads) = (Precision::default(), Threads::default());
@@ -53,7 +51,7 @@ impl Sampler {
     /// The same with another precision.
     ///
     /// # Errors
-    /// [`Error::Unavailable`] unless the strategy [has](Strategy::has_precision) it.
+    /// [`Error::Unavailable`] if the strategy does not [have](Strategy::has_precision) this precision.
     pub fn with_precision(self, precision: Precision) -> Result<Self, Error> {
         if self.strategy.has_precision(precision) {
             Ok(Self { precision, ..self })
@@ -72,7 +70,7 @@ impl Sampler {
         Self { backend, ..self }
     }
 
-    /// The same on other threads. A sampler is a few bytes, so that every call may have its own:
+    /// The same on other threads. A sampler is a few bytes, so every call may have its own:
     ///
     /// ```
     /// # use airlight::{Sampler, Strategy, Threads};
@@ -84,7 +82,7 @@ impl Sampler {
         Self { threads, ..self }
     }
 
-    /// Takes a batch the whole way.
+    /// Runs a task on a batch.
     fn travel<T: road::Task<Method = Method>>(&self, inputs: &Inputs<'_>, out: road::Out<'_, T>) -> Counts {
         road::travel::<T>(self.threads, self.backend, self.method(), inputs, out)
     }
@@ -93,56 +91,71 @@ impl Sampler {
         Method { strategy: self.strategy, precision: self.precision }
     }
 
-    /// Its density.
+    /// The sampled density.
     #[must_use]
     pub fn strategy(&self) -> Strategy {
         self.strategy
     }
 
-    /// Its precision.
+    /// The precision.
     #[must_use]
     pub fn precision(&self) -> Precision {
         self.precision
     }
 
-    /// Its backend.
+    /// The backend.
     #[must_use]
     pub fn backend(&self) -> Backend {
         self.backend
     }
 
-    /// Its threads.
+    /// The threads of a call.
     #[must_use]
     pub fn threads(&self) -> Threads {
         self.threads
     }
 
-    /// Draws a distance for each of the uniform variates `u` in `[0, 1]`.
+    /// Samples a distance for each of the uniform variates `u` in `[0, 1]`.
     ///
     /// `u` and the columns of `samples` have the length of the batch, or k times that: then the k samples of a ray lie
     /// next to each other, those of ray `i` from `k i` on, and share the set-up of the ray's density.
     ///
     /// Variates need not be independent: stratified and low-discrepancy ones are welcome, in a column of one variate per ray
-    /// as among the variates of one ray. The inverse is monotone, so that every interval of `u` is an interval of `t` with as
-    /// much of the density, and variates that are even in `[0, 1]` are as even along the ray.
+    /// as among the variates of one ray. The inverse is monotone: it maps every interval of `u` to an interval of `t` with the
+    /// same probability.
     ///
-    /// `t` increases with `u`, but for rounding: from two variates closer than 2^-20 the larger one may come out first,
-    /// by no more than 5e-6 of the CDF. What is written for an empty or invalid ray is 0. A variate outside `[0, 1]`
-    /// makes its ray invalid. Equal inputs give equal bits, wherever they stand in a batch and however many threads
-    /// there are, in the [default floating-point environment](Self#floating-point-environment).
+    /// Outputs are 0 for an empty or invalid ray. A variate outside `[0, 1]` makes its ray invalid. At u = 0 and 1 a density
+    /// that vanishes there is sampled next to the end.
     ///
-    /// Errors are those of [`Precision::Exact`]; what `Fast` has instead stands [there](Precision).
+    /// # Accuracy
+    /// Of [`Precision::Exact`]; `Fast` has [bounds of its own](Precision). Families of inputs are those of
+    /// [accuracy](crate::guide::accuracy#families-of-inputs).
     ///
-    /// Beyond the rounding of `t` to f32 the CDF at `t` is within 2^-20 of `u`. `r`, to 4 ulp, and the weight, to 2e-5, are
-    /// those of a distance that rounds to `t`, or of a variate so near to `u`: next to the emitter `t` resolves neither.
-    /// (Where the density is below a thousandth of its mean, the error of a weight grows as that falls.) `airlight
-    /// accuracy` measures it. At u = 0 and 1 a density that vanishes there is sampled next to the end.
+    /// | output | bound | where | test |
+    /// |---|---|---|---|
+    /// | all | finite, not negative, `t` in `[t_min, t_max]` | any bits | `tests/hard_cases.rs`, `tests/bad_input.rs` |
+    /// | `t` | `u` within 2^-20 of the CDFs of the distances that round to `t` | all families | `tests/hard_cases.rs` |
+    /// | `t` | `abs(CDF(t) - u)` at most 6e-6 for 99.9 % of rays | family `generic` | `tests/accuracy.rs` |
+    /// | `t` | increases with `u`; of two variates closer than 2^-20 the larger may have the smaller `t`, by at most 5e-6 of the CDF | random scenes | `tests/densities.rs` |
+    /// | `t` of `EquiAngular` | distance from the nearer end, beyond the rounding of `t`: 8 ulp for 99.99 % of rays, 16 at most | all families | `tests/hard_cases.rs` |
+    /// | `t` of `PointNormal` | the same: 8 ulp for 99.9 %, 10 for 99.99 % of rays, 16 at most | all families | `tests/hard_cases.rs` |
+    /// | `pdf` | 1e-5, relative, of [`pdf`](Self::pdf) at `t` | where `t` resolves `r` | `tests/densities.rs` |
+    /// | `weight` | 2e-5, relative | all families, optical depth up to 30, density at least a thousandth of its mean | `tests/hard_cases.rs` |
+    /// | `r` | 4 ulp | all families | `tests/hard_cases.rs` |
+    /// | bits | equal for equal inputs, whatever the place in the batch, its length and the number of threads | [default floating-point environment](Self#floating-point-environment) | `tests/invariance.rs` |
+    ///
+    /// `r` and `weight` are those of a distance that rounds to `t`, or of a variate within 2^-20 of `u`: next to the emitter `t`
+    /// resolves neither. Below a thousandth of the mean density the error of a weight grows as the density falls.
     ///
     /// # Errors
-    /// [`Error::Length`] if a column has another length than `rays.origin[0]`, or `u` one that is no multiple of it, or
-    /// an output another one than `u`; [`Error::Empty`] for a table without entries, also with no rays;
-    /// [`Error::Channels`] if the media of a table have different numbers of channels, or there are columns of weights and not as
-    /// many as channels; [`Error::Value`] for media of a number of channels that there is not. Nothing is written then.
+    /// - [`Error::Length`] if a column has another length than `rays.origin[0]`, if the length of `u` is no multiple of that, or
+    ///   if the length of an output is not that of `u`;
+    /// - [`Error::Empty`] for a table without entries, also with no rays;
+    /// - [`Error::Channels`] if the media of a table have different numbers of channels, or if the number of columns of weights
+    ///   is not that of the channels;
+    /// - [`Error::Value`] for media of an unsupported number of channels.
+    ///
+    /// Nothing is written then.
     pub fn sample(
         &self,
         rays: &Rays<'_>,
@@ -166,25 +179,30 @@ impl Sampler {
 
     /// The density at given distances `t`, for multiple importance sampling \[1/m\]; 0 outside the sampled interval.
     ///
-    /// It is the density of what [`sample`](Self::sample) returns, taken at `t` as rounded: where `t` resolves `r` the
-    /// two agree within 1e-5, next to the emitter that of `sample` is the exact one.
-    ///
-    /// | error at a given `t`, in ulp, of [`Precision::Exact`] | 99 % of rays | 99.99 % |
-    /// |---|---|---|
-    /// | all densities, but for what follows | 8 | 64 |
-    /// | product densities at the very ends of the interval, where they may vanish | 14 | 128 |
-    /// | `Product3` next to the emitter | 9 | 64 |
-    /// | `Product3` next to the emitter, with `1 - abs(g)` from 2^-24 to 1e-3 (family `peaks`) | 17 | 96 |
-    /// | product densities on arbitrary bits | 10 | no promise |
-    ///
-    /// What limits `peaks` is the set-up in f32: where the line of three knots falls from a peak to next to nothing, its value
-    /// counts the roundings of the set-up many times; geometry rounded to f32 would leave 2 ulp.
-    ///
-    /// The error of a density below a thousandth of `1/(t_b - t_a)`, its mean over the sampled interval, is in ulp of that
-    /// thousandth. A density below f32's range is 0.
+    /// It is the density of what [`sample`](Self::sample) returns, at `t` as rounded. Next to the emitter, where `t` does not
+    /// resolve `r`, the density that `sample` returns is the exact one.
     ///
     /// [`Counts::sampled`] counts the rays that have a sample, whether or not it could be at `t`. A NaN in `t` makes
-    /// its ray invalid.
+    /// its ray invalid. A density below f32's range is 0.
+    ///
+    /// # Accuracy
+    /// Error at the given `t` in ulp, of [`Precision::Exact`]; `Fast` has [bounds of its own](Precision). A density below a
+    /// thousandth of its mean `1/(t_b - t_a)` over the sampled interval has its error in ulp of that thousandth.
+    ///
+    /// | densities | family of inputs | 99 % of rays | 99.99 % | test |
+    /// |---|---|---|---|---|
+    /// | all | all but what follows | 8 | 64 | `tests/hard_cases.rs` |
+    /// | all | `generic` | 8 | 64; 1e-3, relative, at most | `tests/accuracy.rs` |
+    /// | product densities | `variate`: at the ends of the interval, where they may vanish | 14 | 128 | `tests/hard_cases.rs` |
+    /// | product densities | `spot` | 10 | 64 | `airlight accuracy` |
+    /// | `Product3` | `near-emitter` | 9 | 64 | `tests/hard_cases.rs` |
+    /// | `Product3` | `peaks`: `1 - abs(g)` from 2^-24 to 1e-3, next to an emitter | 17 | 96 | `tests/hard_cases.rs` |
+    /// | product densities | `random-bits` | 10 | none | `tests/hard_cases.rs` |
+    /// | other densities | `random-bits` | 8 | none | `tests/hard_cases.rs` |
+    ///
+    /// The integral of the density is 1 (`tests/densities.rs`). On `peaks` the set-up in f32 is the limit: where the line of
+    /// three knots falls from a peak to almost nothing, its value multiplies the roundings of the set-up. Geometry that is
+    /// rounded to f32 alone would leave 2 ulp.
     ///
     /// # Errors
     /// As [`sample`](Self::sample).
@@ -201,12 +219,22 @@ impl Sampler {
         Ok(self.travel::<road::Pdf>(&inputs, pdf))
     }
 
-    /// The distribution function at given distances `t` \[1\]: the probability that [`sample`](Self::sample) returns less,
-    /// 0 before the sampled interval and 1 beyond it. It is the inverse of `sample`: from `t` back to `u`, which pbrt calls
-    /// `Invert`, for bidirectional and primary-sample-space methods.
+    /// The distribution function (CDF) at given distances `t` \[1\]: the probability that [`sample`](Self::sample) returns less,
+    /// 0 before the sampled interval and 1 beyond it.
     ///
-    /// With [`Precision::Exact`] the error is at most 2^-20 at the given `t`, with `Fast` at most 8e-6 for 99.9 % of the rays
-    /// of [ordinary scenes](Precision). What is written for an empty or invalid ray is 0. A NaN in `t` makes its ray invalid.
+    /// It is the inverse of `sample`, from `t` back to `u`, which pbrt calls `Invert`: for bidirectional and
+    /// primary-sample-space methods. The output is 0 for an empty or invalid ray. A NaN in `t` makes its ray invalid.
+    ///
+    /// # Accuracy
+    ///
+    /// | precision | absolute error at the given `t` | where | test |
+    /// |---|---|---|---|
+    /// | [`Precision::Exact`] | 2^-20 at most | all families | `tests/hard_cases.rs`, `tests/cdf.rs` |
+    /// | [`Precision::Fast`] | 8e-6 for 99.9 % of rays | [ordinary scenes](Precision), `variate`, `short-intervals`, `spot` | `tests/hard_cases.rs` |
+    /// | [`Precision::Fast`] | 2e-3 for 99.9 % of rays | `near-emitter`, `peaks` | `tests/hard_cases.rs` |
+    /// | [`Precision::Fast`] | 1e-3 for 99.9 % of rays | `infinite-rays` | `tests/hard_cases.rs` |
+    /// | [`Precision::Fast`] | 1e-4 for 99.9 % of rays | `random-bits` | `tests/hard_cases.rs` |
+    /// | [`Precision::Fast`] | none | `cosine` | |
     ///
     /// ```
     /// # use airlight::{Emitter, Medium, Ray, Sampler, Strategy};
@@ -234,8 +262,15 @@ impl Sampler {
     }
 
     /// The integrand `mu_s T rho N / r^2` at given distances `t` \[1/m^3\], the same for every strategy of a precision; 0 outside
-    /// `[t_min, t_max]`, and at most `f32::MAX`. Of [`Precision::Exact`] max error 48 ulp where the optical depth is below 30 and the
-    /// ray's line at least 1e-7 of the distance off the emitter; where N vanishes, relative to N = 1e-3.
+    /// `[t_min, t_max]`, and at most `f32::MAX`.
+    ///
+    /// # Accuracy
+    /// Of [`Precision::Exact`], up to an optical depth of 30. Where `N` is below 1e-3, errors are relative to `N` = 1e-3.
+    ///
+    /// | error at the given `t` | where | test |
+    /// |---|---|---|
+    /// | 48 ulp at most | all families, the emitter at least 1e-7 of its distance off the ray's line | `tests/hard_cases.rs` |
+    /// | 32 ulp for 99.9 % of rays, 4096 at most | families `near-emitter` and `spot`, the emitter nearer to the line | `tests/hard_cases.rs`, `airlight accuracy` |
     ///
     /// # Errors
     /// As [`sample`](Self::sample).
@@ -279,7 +314,7 @@ impl Sampler {
         Ok(self.travel::<road::Evaluate>(&inputs, columns(integrands)))
     }
 
-    /// Goes the road of [`sample`](Self::sample) up to a stage and no further, to time it; nothing is written.
+    /// Runs [`sample`](Self::sample) up to a stage, to time it; nothing is written.
     ///
     /// # Errors
     /// As [`sample`](Self::sample).
@@ -298,8 +333,8 @@ impl Sampler {
         Ok(())
     }
 
-    /// [`sample`](Self::sample) for one ray; `None` if it has no sample, or `u` is not in `[0, 1]`. Of a coloured medium the
-    /// weight is that of its [mean](Medium::mean).
+    /// [`sample`](Self::sample) for one ray; `None` if the ray has no sample, or `u` is not in `[0, 1]`. In a coloured medium the
+    /// weight is that of the [mean](Medium::mean).
     #[must_use]
     pub fn sample_one(&self, ray: &Ray, emitter: &Emitter, medium: &Medium, u: f32) -> Option<Sample> {
         let [mut t, mut pdf, mut weight, mut r] = [0.0; 4];
@@ -325,7 +360,7 @@ impl Sampler {
         cdf
     }
 
-    /// [`evaluate`](Self::evaluate) for one ray; of a coloured medium that of its [mean](Medium::mean).
+    /// [`evaluate`](Self::evaluate) for one ray; in a coloured medium the integrand of the [mean](Medium::mean).
     #[must_use]
     pub fn evaluate_one(&self, ray: &Ray, emitter: &Emitter, medium: &Medium, t: f32) -> f32 {
         let mut integrand = 0.0;
@@ -333,7 +368,7 @@ impl Sampler {
         integrand
     }
 
-    /// Takes one ray the whole way.
+    /// Runs a task on one ray.
     fn one<T: road::Task<Method = Method>>(
         &self,
         ray: &Ray,

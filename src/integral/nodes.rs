@@ -1,10 +1,10 @@
-//! How many evaluations an integral takes.
+//! The number of evaluations of an integral.
 
 use std::fmt;
 use std::str::FromStr;
 
-/// How many nodes an [`Integral`](crate::Integral) has: the evaluations of the integrand for each ray. Its page has the
-/// errors.
+/// The number of nodes of an [`Integral`](crate::Integral): evaluations of the integrand for each ray. Errors are in the table of
+/// [`Integral`](crate::Integral#accuracy), times in [speed](crate::guide::speed#other-calls).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Nodes {
@@ -15,15 +15,15 @@ pub enum Nodes {
     /// As exact as f32 in ordinary scenes.
     #[default]
     Eight,
-    /// The same in thin media without an end, in forward peaks, and next to emitters.
+    /// For thin media without an end, forward peaks, and next to emitters.
     Twelve,
 }
 
 impl Nodes {
-    /// All of them, from the fewest on.
+    /// All numbers of nodes, ascending.
     pub const ALL: &'static [Self] = &[Self::Four, Self::Six, Self::Eight, Self::Twelve];
 
-    /// The number.
+    /// The number as an integer.
     #[must_use]
     pub fn count(self) -> usize {
         match self {
@@ -41,7 +41,7 @@ impl fmt::Display for Nodes {
     }
 }
 
-/// A number of nodes that is not offered.
+/// The error of parsing [`Nodes`]: the text is none of the numbers.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnknownNodes(String);
 
