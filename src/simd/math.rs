@@ -201,7 +201,7 @@ fn round<I: Isa>(isa: I, x: I::V) -> I::V {
     (x + shift) - shift
 }
 
-/// `-ln(1 - x)`, given also `y = 1 - x` as exactly as it is known; at 1 that of f32's least normal number.
+/// `-ln(1 - x)`, given also `y = 1 - x` as exactly as it is known. A `y` below f32's least normal number counts as that number.
 ///
 /// - Types: f32.
 /// - Max error: 2.7 ulp.

@@ -1,13 +1,37 @@
-//! `p` nearly proportional to the whole integrand `T rho N / r^2`, without trigonometry and without iteration.
+//! The product density: nearly proportional to the whole integrand `T rho N / r^2`, without trigonometry and without iteration.
 //!
-//! The integrand is evaluated at K places of a variable `v` in `[0, 1]`, followed by a line with K knots, and inverted in
-//! closed form. `v` is a Moebius map of `X = t' + r`, in which everything is algebraic (our derivation):
+//! The integrand is evaluated at K places of a variable `v` in `[0, 1]`, replaced by a line with K knots, and inverted in closed
+//! form. Equations are those of `docs/mathematics.md`, which also has a table of the names below.
 //!
-//! - `T` is proportional to `exp(-mu_t X)`; `r = (X + h^2/X)/2`, `t' = (X - h^2/X)/2`, `dX/dt = X/r`.
-//! - `1 + g^2 + 2 g sin theta = (A^2 X^2 + B^2 h^2)/(X^2 + h^2)` with `A = 1 + g`, `B = 1 - g`.
-//! - `Y = X - X_a = Y_c v/(e + 1 - v)`, where `Y_c` is the length over which the integrand changes and `e = Y_c/Y_b`.
-//! - A line's values at its inner knots are those of the integrand less a twelfth of `width^2 f''`, as least squares would
-//!   have them. At an end, where the integrand may vanish over no length at all, it is drawn through a place inside.
+//! ```text
+//! new    X = t' + r at both ends                                                   (5.7)
+//!        Y_b = X_b - X_a = l (X_a + X_b)/(r_a + r_b)                               (5.8)
+//!        1/Y_c = 0.45 mu_t + 1/(1.5 X_a + 1.25 h B/A),   e = Y_c/Y_b               (6.1), (6.2)
+//!        for every knot, at z_k:   s = e + 1 - z,   P = h s,   Q = X_a s + Y_c z   (6.9)
+//!            q_k = exp(-mu_t Y_c z/s) (m X s^2) (P^2 + Q^2)^(-1/2) (A^2 Q^2 + B^2 P^2)^(-3/2)   (6.10)
+//!        f_k = q_k less a twelfth of width^2 q''; straight on to the ends          (6.11)-(6.14)
+//!        f_k over the trapezoid sum of f
+//! draw   the segment i with C_i <= u; tau by the quadratic formula                 (6.15)
+//!        v = v_i + tau l,   p_v = f_i + tau (f_{i+1} - f_i)
+//! point  Y = Y_c v/(e + 1 - v); t from Y                                           (6.3), (6.16)
+//!        p_t = p_v (dv/dY) X/r                                                     (6.17), (6.18)
+//! pdf    v = (1 + e) Y/(Y + Y_c); the same p_t                                     (6.4)
+//! cdf    C_i + (f_i + p_v)/2 (v - v_i)                                             (6.19)
+//! ```
+//!
+//! Departures from this, and why:
+//!
+//! 1. Lengths at a knot are in units of the largest of `h`, `X_a`, `Y_c`, and times `1/(1 + e)`: no power of them leaves f32, for
+//!    `e` of any size. Constant factors of `q` are left out, as the sum divides them out.
+//! 2. Floors: `Y_c` is at least 1e-18 m, `P^2 + Q^2` and `A^2 Q^2 + B^2 P^2` at least 1e-18 of these units, `m` at least 0. They
+//!    keep the quotient (6.10) finite where its terms vanish.
+//! 3. If the sum is no usable number, the density is uniform in `v`: valid, if not good.
+//! 4. `tau` stays within [1e-7, 1 - 2^-23], off the knots, where the density may be 0.
+//! 5. `point` takes `t'` from where the least cancels, an end or `X`, and weights have the `r` of the rounded `t` where `t`
+//!    resolves it.
+//! 6. `pdf` and `cdf` compute `v` and `1 - v` of a given `t` in f64: a dozen roundings, multiplied by the slope of the density,
+//!    would be most of their error.
+//! 7. In coloured media 5 and 9 knots have the mixture (9.1) of the channels' densities, other numbers the density of the mean.
 
 pub(crate) mod along_v;
 pub(crate) mod knots;
@@ -20,7 +44,7 @@ use crate::integrand::{ChannelLanes, Lobe, MediumLanes};
 use crate::simd::math::{one_minus_exp, reciprocal};
 use crate::simd::{Isa, Lanes, Number, Records, none};
 
-/// `0.65 x + 0.175 (1 - cos(pi x))` at `x = k/16`; with fewer knots every second, fourth or eighth.
+/// `v_k` of (6.6), `0.65 x + 0.175 (1 - cos(pi x))` at `x = k/16`; with fewer knots every second, fourth or eighth of them.
 const KNOTS: [f32; 17] = [
     0.0,
     0.043_987_576,
@@ -41,21 +65,21 @@ const KNOTS: [f32; 17] = [
     1.0,
 ];
 
-/// How far from an end the integrand is looked at in its stead, in widths of the segment.
+/// The place where the integrand is evaluated instead of an end: its distance from the end, in widths of the segment (6.7).
 const INSIDE: f32 = 0.125;
-/// The least share of what is seen there that the line keeps at an end.
+/// The least value of the line at an end, as a share of the integrand seen there (6.13).
 const LEAST_AT_END: f32 = 0.25;
 /// An end with less than this share of the cosine is dark.
 const DARK: f32 = 1.0 / 4096.0;
-/// So much of the next knot the line counts against what is seen inside a dark end: more than a straight line would, which
-/// ends at about 0 and is a difference without digits. The least share stands there.
+/// The factor of the next knot at a dark end (6.14): more than the 1/7 of a straight line, which would end at about 0 as a
+/// difference without digits. The least share decides there.
 const NEXT_TO_DARK: f32 = 0.25;
-/// The least share of what is seen that the line keeps at a dark end.
+/// The least value of the line at a dark end, as a share of the integrand seen there (6.14).
 const LEAST_IN_THE_DARK: f32 = 0.0625;
-/// The least share of the integrand that it keeps between the ends.
+/// The least value of the line at an inner knot, as a share of the integrand (6.11).
 const LEAST: f32 = 0.5;
 
-/// No length is resolved below this \[m\].
+/// The least `Y_c` \[m\].
 const SHORTEST: f32 = 1e-18;
 
 #[derive(Clone, Copy)]
@@ -65,21 +89,21 @@ pub(crate) struct Product<I: Isa, const K: usize> {
     r_b: I::V,
     /// `X` at the start.
     x_a: I::V,
-    /// `h/X` there.
+    /// `h/X` at the ends.
     h_x_a: I::V,
     h_x_b: I::V,
-    /// The scale of the warp, and `e`; what is divided by.
+    /// `Y_c` and `e` of the variable `v`, and their reciprocals.
     y_c: I::V,
     inv_y_c: I::V,
     e: I::V,
     inv_e: I::V,
     /// `1/(1 + e)`.
     w_0: I::V,
-    /// The density over `v` at the knots; its integral is 1.
+    /// The density over `v` at the knots, `f_k`; its integral is 1.
     f: [I::V; K],
 }
 
-/// Where a variate leads: `v`, `1 - v`, and the density over `v`.
+/// The place of a variate: `v`, `1 - v` as `rest`, and the density over `v`.
 #[derive(Clone, Copy)]
 pub(crate) struct Place<I: Isa> {
     v: I::V,
@@ -87,7 +111,7 @@ pub(crate) struct Place<I: Isa> {
     p_v: I::V,
 }
 
-/// Where `v` lies between two knots.
+/// The segment that contains `v`: `f_i`, `f_{i+1}`, `v_i` and its width `l`.
 struct Segment<I: Isa> {
     f_0: I::V,
     f_1: I::V,
@@ -95,12 +119,12 @@ struct Segment<I: Isa> {
     width: I::V,
 }
 
-/// Where a given point lies.
+/// The place of a given point.
 struct Found<I: Isa> {
     segment: Segment<I>,
     /// The CDF at the start of the segment.
     below: I::V,
-    /// How far `v` is from the knots on both sides.
+    /// The distances of `v` from the knots on both sides.
     from_0: I::V,
     to_1: I::V,
     /// `dv/dY`, `X` and `r`.
@@ -110,10 +134,11 @@ struct Found<I: Isa> {
 }
 
 impl<I: Isa, const K: usize> Product<I, K> {
-    /// Whether coloured media have a mixture of their channels' densities, not the density of the mean: 3 knots follow none of
-    /// them, and with 17 no variance is less than with 9.
+    /// Whether coloured media have the mixture (9.1) of their channels' densities, not the density of the mean. 3 knots follow no
+    /// channel well, and 17 leave no channel less variance than 9.
     const MIXES: bool = K == 5 || K == 9;
 
+    /// `v_k` (6.6).
     const V: [f32; K] = {
         let mut v = [0.0; K];
         let mut k = 0;
@@ -124,7 +149,7 @@ impl<I: Isa, const K: usize> Product<I, K> {
         v
     };
 
-    /// Where the integrand is looked at: at the knots, but inside the ends.
+    /// `z_k`, where the integrand is evaluated: the knots, but places inside at the ends (6.7).
     const SEEN: [f32; K] = {
         let mut seen = Self::V;
         seen[0] = INSIDE * Self::V[1];
@@ -132,7 +157,7 @@ impl<I: Isa, const K: usize> Product<I, K> {
         seen
     };
 
-    /// How far that is from 1.
+    /// `1 - z_k`.
     const TO_1: [f32; K] = {
         let mut to_1 = [0.0; K];
         let mut k = 0;
@@ -144,22 +169,22 @@ impl<I: Isa, const K: usize> Product<I, K> {
         to_1
     };
 
-    /// How much of `f_{i-1} - f_i` and of `f_{i+1} - f_i` the line is below `f_i` at an inner knot: together a
-    /// twenty-fourth of the second derivative times the sum of the squares of both widths.
+    /// The weights of `q_{i-1} - q_i` and of `q_{i+1} - q_i` by which the line is below `q_i` at an inner knot: together
+    /// `q''_i (l_-^2 + l_+^2)/24` of (6.11), (6.12).
     const BEND: [[f32; 2]; K] = {
         let mut bend = [[0.0; 2]; K];
         let mut i = 1;
         while i + 1 < K {
-            let [below, above] = [Self::V[i] - Self::V[i - 1], Self::V[i + 1] - Self::V[i]];
-            let [seen_below, seen_above] = [Self::SEEN[i] - Self::SEEN[i - 1], Self::SEEN[i + 1] - Self::SEEN[i]];
-            let share = (below * below + above * above) / (12.0 * (seen_below + seen_above));
-            bend[i] = [share / seen_below, share / seen_above];
+            let [l_below, l_above] = [Self::V[i] - Self::V[i - 1], Self::V[i + 1] - Self::V[i]];
+            let [z_below, z_above] = [Self::SEEN[i] - Self::SEEN[i - 1], Self::SEEN[i + 1] - Self::SEEN[i]];
+            let share = (l_below * l_below + l_above * l_above) / (12.0 * (z_below + z_above));
+            bend[i] = [share / z_below, share / z_above];
             i += 1;
         }
         bend
     };
 
-    /// The line's values at the knots, of the integrand's where it is looked at.
+    /// The line's values `f_k` at the knots, from the integrand's values `q_k` at the places `z_k`.
     #[cfg_attr(optimized, inline(always))]
     fn line(isa: I, [dark_a, dark_b]: [I::Mask; 2], seen: &[I::V; K]) -> [I::V; K] {
         let c = |x| isa.splat(x);
@@ -168,16 +193,17 @@ impl<I: Isa, const K: usize> Product<I, K> {
         f[K - 1] = Self::extended(isa, dark_b, seen[K - 1], seen[K - 2]);
         let mut i = 1;
         while i + 1 < K {
-            let [below, above] = Self::BEND[i];
-            let own = seen[i] * c(1.0 + below + above);
-            let line = seen[i - 1].mul_add(c(-below), seen[i + 1].mul_add(c(-above), own));
+            // (6.11), (6.12)
+            let [of_below, of_above] = Self::BEND[i];
+            let own = seen[i] * c(1.0 + of_below + of_above);
+            let line = seen[i - 1].mul_add(c(-of_below), seen[i + 1].mul_add(c(-of_above), own));
             f[i] = line.max(c(LEAST) * seen[i]);
             i += 1;
         }
         f
     }
 
-    /// The line over its integral, or where that is nothing to go by, uniform in `v`.
+    /// The line over its integral, the trapezoid sum; uniform in `v` where the sum is too small, too large or no number.
     #[cfg_attr(optimized, inline(always))]
     fn normalized(isa: I, line: [I::V; K]) -> [I::V; K] {
         let c = |x| isa.splat(x);
@@ -197,8 +223,8 @@ impl<I: Isa, const K: usize> Product<I, K> {
         f
     }
 
-    /// The mean of the densities of the channels that scatter, or of all if none does: no channel's variance is above
-    /// `C (1 + V_c) - 1`, with `V_c` that of its own density. `ways` are the `Y` of the knots.
+    /// (9.1): the mean of the densities of the channels that scatter, or of all if none does. No channel's variance is above
+    /// `C (1 + V_c) - 1`, with `V_c` that of its own density (9.2). `ways` are the `Y` of the knots.
     #[cfg_attr(optimized, inline(always))]
     fn mixture(
         isa: I,
@@ -240,43 +266,44 @@ impl<I: Isa, const K: usize> Product<I, K> {
         sum
     }
 
-    /// The line's value at an end, straight on from the next knot through what is seen inside, or lower.
+    /// The line's value at an end: straight on from the next knot through the place inside (6.13), of a dark end lower (6.14).
     #[cfg_attr(optimized, inline(always))]
     fn extended(isa: I, dark: I::Mask, seen: I::V, next: I::V) -> I::V {
         let c = |x| isa.splat(x);
+        // 1/7
         let beyond = INSIDE / (1.0 - INSIDE);
         let of_next = I::V::select(dark, c(NEXT_TO_DARK), c(beyond));
         let least = I::V::select(dark, c(LEAST_IN_THE_DARK), c(LEAST_AT_END));
         (-next).mul_add(of_next, seen * c(1.0 + beyond)).max(least * seen)
     }
 
-    /// The segment for which `beyond(i, C_i)` holds for all `i` up to its start, where `C_i` is the CDF at knot `i`.
+    /// The segment for which `beyond(i, C_i)` holds for all `i` up to its start, and the CDF `C_i` there.
     #[cfg_attr(optimized, inline(always))]
     fn segment(&self, isa: I, beyond: impl Fn(usize, I::V) -> I::Mask) -> (Segment<I>, I::V) {
         let mut below = isa.splat(0.0);
         let mut cdf = below;
         let [f_0, f_1] = [self.f[0], self.f[1]];
-        let mut s = Segment { f_0, f_1, v_0: isa.splat(Self::V[0]), width: isa.splat(Self::V[1] - Self::V[0]) };
+        let mut found = Segment { f_0, f_1, v_0: isa.splat(Self::V[0]), width: isa.splat(Self::V[1] - Self::V[0]) };
         let mut i = 1;
         while i + 1 < K {
             let half_width = isa.splat(0.5 * (Self::V[i] - Self::V[i - 1]));
             cdf = (self.f[i - 1] + self.f[i]).mul_add(half_width, cdf);
             let here = beyond(i, cdf);
-            s.f_0 = I::V::select(here, self.f[i], s.f_0);
-            s.f_1 = I::V::select(here, self.f[i + 1], s.f_1);
-            s.v_0 = I::V::select(here, isa.splat(Self::V[i]), s.v_0);
-            s.width = I::V::select(here, isa.splat(Self::V[i + 1] - Self::V[i]), s.width);
+            found.f_0 = I::V::select(here, self.f[i], found.f_0);
+            found.f_1 = I::V::select(here, self.f[i + 1], found.f_1);
+            found.v_0 = I::V::select(here, isa.splat(Self::V[i]), found.v_0);
+            found.width = I::V::select(here, isa.splat(Self::V[i + 1] - Self::V[i]), found.width);
             below = I::V::select(here, cdf, below);
             i += 1;
         }
-        (s, below)
+        (found, below)
     }
 
-    /// From a density over `v` where `Y + Y_c = Y_c/s`: `dv/dt = (dv/dY) X/r`.
+    /// (6.17), (6.18), with `dv/dY = share^2 (1 + e)/Y_c` for `share = Y_c/(Y + Y_c) = s/(1 + e)`.
     #[cfg_attr(optimized, inline(always))]
-    fn pdf_over_v(&self, isa: I, p_v: I::V, s: I::V, x: I::V, r: I::V) -> Pdf<I> {
-        // In this order no part of it leaves f32 before the whole does.
-        let over_y = (p_v * s) * (s * ((isa.splat(1.0) + self.e) * self.inv_y_c));
+    fn pdf_over_v(&self, isa: I, p_v: I::V, share: I::V, x: I::V, r: I::V) -> Pdf<I> {
+        // In this order no intermediate result leaves f32 before the density does.
+        let over_y = (p_v * share) * (share * ((isa.splat(1.0) + self.e) * self.inv_y_c));
         Pdf { over_t: over_y * (x / r), times_r2: over_y * (x * r) }
     }
 }
@@ -298,6 +325,7 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
         let (g, one) = (geometry, c(1.0));
         let Lobe { a2, b2, b_over_a, .. } = medium.lobe;
 
+        // X at the ends (5.7), Y_b (5.8), Y_c (6.1), e (6.2).
         let (ends, h) = (g.ends(isa), g.foot.h);
         let [r_a, r_b] = ends.r;
         let inv_h = one / h;
@@ -311,43 +339,44 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
         let inv_e = y_b * inv_y_c;
         let w_0 = one / (one + e);
 
-        // At a knot P, Q stand for h, X, in a scale of their own that keeps their powers within f32.
-        let (h_c, x_c) = (h * inv_y_c, x_a * inv_y_c);
-        let scale = one / h_c.max(x_c).max(one);
-        let (h_c, x_c) = (h_c * scale, x_c * scale);
-        let (h_c, x_c, y_c_c) = (w_0 * h_c, w_0 * x_c, w_0 * scale);
+        // h, X_a and Y_c: over Y_c, over the largest of them, and that times 1/(1 + e).
+        let (h_over_y_c, x_over_y_c) = (h * inv_y_c, x_a * inv_y_c);
+        let scale = one / h_over_y_c.max(x_over_y_c).max(one);
+        let (h_over_largest, x_over_largest) = (h_over_y_c * scale, x_over_y_c * scale);
+        let (h_unit, x_unit, y_c_unit) = (w_0 * h_over_largest, w_0 * x_over_largest, w_0 * scale);
         let units = Units { of_v: w_0, of_to_1: inv_e, h_x_a, h_x_b };
         let m_along = AlongV::new(isa, &g.cosine.ramp(isa), w_0 * g.cosine.m_least * inv_y_c, &units);
         let cone = ConeAlongV::new(isa, g, w_0 * inv_y_c, scale, &units);
 
         let channels = channels.filter(|_| Self::MIXES);
-        // What is seen: as a whole, or of coloured media without the transmittance, which each channel has of its own.
+        // q_k (6.10); of coloured media without the transmittance, which differs between channels.
         let mut seen = [one; K];
         let mut ways = [one; K];
         let mut k = 0;
         while k < K {
             let v = c(Self::SEEN[k]);
             let to_1 = c(Self::TO_1[k]);
-            let rest = e + to_1;
+            let s = e + to_1;
             let transmittance = if channels.is_some() {
-                ways[k] = y_c * (v / rest);
+                ways[k] = y_c * (v / s);
                 one
             } else {
-                one_minus_exp(isa, medium.mu_t * y_c * (v / rest)).1
+                one_minus_exp(isa, medium.mu_t * y_c * (v / s)).1
             };
 
-            let p = h_c * rest;
-            let q = x_c.mul_add(rest, y_c_c * v);
-            let at = At { v, to_1, scale: rest, p, q };
+            // P, Q and m X s^2 (6.9), P^2 + Q^2 and A^2 Q^2 + B^2 P^2.
+            let p = h_unit * s;
+            let q = x_unit.mul_add(s, y_c_unit * v);
+            let at = At { v, to_1, scale: s, p, q };
             let m = m_along.at(&at);
             let p2 = p * p;
-            let s_1 = q.mul_add(q, p2).max(c(1e-18));
-            let s_2 = (a2 * q).mul_add(q, b2 * p2).max(c(1e-18));
-            let mut numerator = I::V::select(g.cosine.has_normal, m.max(c(0.0)), s_1);
+            let squares = q.mul_add(q, p2).max(c(1e-18));
+            let lobe = (a2 * q).mul_add(q, b2 * p2).max(c(1e-18));
+            let mut numerator = I::V::select(g.cosine.has_normal, m.max(c(0.0)), squares);
             if let Some(cone) = &cone {
-                numerator = numerator * cone.at(isa, &at, m, s_1);
+                numerator = numerator * cone.at(isa, &at, m, squares);
             }
-            seen[k] = transmittance * numerator / (s_2 * (s_1 * s_2).sqrt());
+            seen[k] = transmittance * numerator / (lobe * (squares * lobe).sqrt());
             k += 1;
         }
         let dark = g.dark_ends(isa, &ends, DARK);
@@ -363,13 +392,14 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
     fn draw(&self, isa: I, _: Geometry<'_, I>, u: I::V) -> Place<I> {
         let c = |x| isa.splat(x);
         let one = c(1.0);
+        // (6.15), g = l f
         let (segment, below) = self.segment(isa, |_, cdf| cdf.le(u));
         let Segment { f_0, f_1, v_0, width } = segment;
         let (g_0, g_1, area) = (width * f_0, width * f_1, u - below);
         let root = g_0.mul_add(g_0, (g_1 - g_0) * (area + area)).max(c(0.0)).sqrt();
         // Off the knots, where the density may be 0.
         let tau = ((area + area) / (g_0 + root).max(c(1e-37))).max(c(1e-7)).min(c(1.0 - f32::EPSILON));
-        // What is left of tau, and of v, is never 0.
+        // 1 - tau, and so 1 - v, is never 0.
         let left = one - tau;
         let p_v = tau.mul_add(f_1, left * f_0);
         let v = tau.mul_add(width, v_0);
@@ -381,24 +411,26 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
         let c = |x| isa.splat(x);
         let (g, h, one) = (geometry, geometry.foot.h, c(1.0));
         let Place { v, rest, p_v } = *place;
+        // Y and Y_b - Y (6.3), X, and h/X.
         let y_rest = self.y_c / (self.e + rest);
         let y = y_rest * v;
         let to_y_b = y_rest * rest * (one + self.inv_e);
         let x = self.x_a + y;
         let h_x = h / x;
+        // (5.9), (5.10), and r (5.3)
         let half = c(0.5);
         let from_a = (half * y * self.h_x_a.mul_add(h_x, one)).min(g.lit.length);
         let to_b = (half * to_y_b * self.h_x_b.mul_add(h_x, one)).min(g.lit.length);
         let r = half * h.mul_add(h_x, x);
-        // t' from where the least cancels: X, or an end.
+        // t' from where the least cancels: X (5.3), or an end.
         let (scale_a, scale_b) = (g.foot.a.abs() + from_a, g.foot.b.abs() + to_b);
         let by_end = I::V::select(scale_a.lt(scale_b), g.foot.a + from_a, g.foot.b - to_b);
         let by_x = half * (x - h * h_x);
         let near_end = scale_a.min(scale_b).lt(r);
         let t_prime = I::V::select(near_end, by_end, by_x).max(g.foot.a).min(g.foot.b);
         let point = g.as_rounded(g.point_between(isa, from_a, to_b, t_prime), r);
-        let s = (self.e + rest) * self.w_0;
-        let pdf = self.pdf_over_v(isa, p_v, s, x, r);
+        let share = (self.e + rest) * self.w_0;
+        let pdf = self.pdf_over_v(isa, p_v, share, x, r);
         Drawn { point, pdf, bisected: none(isa) }
     }
 
@@ -406,7 +438,7 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
     fn pdf(&self, isa: I, geometry: Geometry<'_, I>, point: &Point<I>) -> Pdf<I> {
         let Found { segment, from_0, to_1, over_y, x, r, .. } = self.find(isa, geometry, point);
         let p_v = segment.f_1.mul_add(from_0, segment.f_0 * to_1) / segment.width;
-        // dY/dt = X/r.
+        // (6.17), (6.18)
         let over_y = (p_v.widen() * x) * over_y;
         Pdf { over_t: I::V::narrow(over_y * reciprocal(isa, r)), times_r2: I::V::narrow(over_y * r) }
     }
@@ -414,39 +446,40 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
     #[cfg_attr(optimized, inline(always))]
     fn cdf(&self, isa: I, geometry: Geometry<'_, I>, point: &Point<I>) -> I::V {
         let Found { segment, below, from_0, to_1, .. } = self.find(isa, geometry, point);
-        // The line is `p_v` here.
+        // (6.19)
         let p_v = segment.f_1.mul_add(from_0, segment.f_0 * to_1) / segment.width;
         (segment.f_0 + p_v).mul_add(from_0 * isa.splat(0.5), below)
     }
 }
 
 impl<I: Isa, const K: usize> Product<I, K> {
-    /// In f64, from the geometry to the place between two knots and back: a dozen roundings, which the slope of the density
-    /// multiplies, would be most of the error.
+    /// `v`, `1 - v`, their segment and `dv/dY` of a given point, in f64: (6.4), (6.5).
     #[cfg_attr(optimized, inline(always))]
     fn find(&self, isa: I, geometry: Geometry<'_, I>, point: &Point<I>) -> Found<I> {
         let c = |x| isa.splat(x);
         let g = geometry;
         let (x, r) = g.foot.exact_x_and_r(isa, point);
         let [(x_a, r_a), (x_b, r_b)] = g.exact_ends(isa, [self.r_a, self.r_b]);
+        // Y and Y_b - Y by (5.8)
         let over_a = reciprocal(isa, r_a + r);
         let over_b = reciprocal(isa, r_b + r);
         let y = g.way_from_a(isa, point.t).widen() * ((x_a + x) * over_a);
         let to_y_b = g.way_to_b(isa, point.t).widen() * ((x_b + x) * over_b);
+        // (6.4); turn = (1 + e)/(Y + Y_c)
         let (y_c, e) = (self.y_c.widen(), self.e.widen());
         let over_sum = reciprocal(isa, y + y_c);
         let turn = (e + isa.splat_double(1.0)) * over_sum;
         let v = y * turn;
         let rest = to_y_b * (e * over_sum);
         let (segment, below) = self.segment(isa, |i, _| c(Self::V[i]).le(I::V::narrow(v)));
-        // By v or by 1 - v, whichever has the smaller error: a segment is narrow, and the density may vanish within it.
+        // From v or from 1 - v, whichever has the smaller error: a segment is narrow, and the density may vanish within it.
         let near_0 = I::V::narrow(v - rest).lt(c(0.0));
         let (v_0, v_1) = (segment.v_0, segment.v_0 + segment.width);
         let (left, right) = (c(1.0) - v_0, c(1.0) - v_1);
         let from_0 = I::V::select(near_0, I::V::narrow(v - v_0.widen()), I::V::narrow(left.widen() - rest));
         let to_1 = I::V::select(near_0, I::V::narrow(v_1.widen() - v), I::V::narrow(rest - right.widen()));
         let (from_0, to_1) = (from_0.max(c(0.0)), to_1.max(c(0.0)));
-        // dv/dY = Y_c (1 + e)/(Y + Y_c)^2.
+        // dv/dY (6.5)
         Found { segment, below, from_0, to_1, over_y: turn * (y_c * over_sum), x, r }
     }
 }
