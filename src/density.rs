@@ -1,24 +1,24 @@
-//! What every sampled density is to the kernels: a set-up, a draw, a pdf and a CDF.
+//! The interface of a sampled density to the kernels: set-up, draw, point, pdf and CDF.
 
 use crate::geometry::{Extent, Geometry, Point, RayLanes};
 use crate::integrand::{ChannelLanes, MediumLanes};
 use crate::simd::{Isa, Lanes, Room};
 
-/// A density of which the instruction set is open.
+/// A density, generic over the instruction set.
 pub(crate) trait Kind {
     type On<I: Isa>: Density<I>;
 }
 
 /// A density over the distances of a lane group of rays, set up for one geometry and medium.
 pub(crate) trait Density<I: Isa>: Copy {
-    /// How much of the geometry samples and their pdf ask for.
+    /// The part of the geometry that samples and their pdf need.
     const EXTENT: Extent;
-    /// Where a variate leads, before it is a point of the ray.
+    /// The place of a variate, in the terms of the density; [`point`](Self::point) makes a point of the ray of it.
     type Place: Copy;
-    /// Storage for the set-ups of a block, which is cut to as many lane groups where set-ups are large.
+    /// Storage for the set-ups of a block. Its capacity limits the lane groups of a block where set-ups are large.
     type SetUps: Room<SetUp<I, Self>>;
 
-    /// What does not depend on the variate, and which lanes can be sampled. Of coloured media `medium` is the mean.
+    /// The set-up: what does not depend on the variate, and which lanes can be sampled. For coloured media `medium` is the mean.
     fn new(
         isa: I,
         ray: &RayLanes<I>,
@@ -27,37 +27,37 @@ pub(crate) trait Density<I: Isa>: Copy {
         channels: Option<&ChannelLanes<I>>,
     ) -> (Self, I::Mask);
 
-    /// Where the CDF is `u`, increasing in `u`.
+    /// The place where the CDF is `u`; it increases with `u`.
     fn draw(&self, isa: I, geometry: Geometry<'_, I>, u: I::V) -> Self::Place;
 
-    /// The point of the ray there.
+    /// The point of the ray at a place, and the density there.
     fn point(&self, isa: I, geometry: Geometry<'_, I>, place: &Self::Place) -> Drawn<I>;
 
-    /// The density at a point of the support.
+    /// The density at a point of the sampled interval.
     fn pdf(&self, isa: I, geometry: Geometry<'_, I>, point: &Point<I>) -> Pdf<I>;
 
-    /// The distribution function at a point within the support, but for rounding.
+    /// The distribution function at a point of the sampled interval, which may lie outside by rounding.
     fn cdf(&self, isa: I, geometry: Geometry<'_, I>, point: &Point<I>) -> I::V;
 
-    /// Whether `t` is at or before the start of the support, and at or beyond its end. Unlike the ends of
-    /// [`support`](Self::support) these are not rounded.
+    /// Whether `t` is at or before the start of the sampled interval, and at or beyond its end. Unlike
+    /// [`support`](Self::support) this compares with ends that are not rounded.
     #[cfg_attr(optimized, inline(always))]
     fn outside(&self, isa: I, geometry: Geometry<'_, I>, t: I::V) -> [I::Mask; 2] {
         [geometry.way_from_a(isa, t).le(isa.splat(0.0)), geometry.way_to_b(isa, t).le(isa.splat(0.0))]
     }
 
-    /// The distances `[low, high]` that are sampled \[m\].
+    /// The sampled interval `[low, high]` of distances \[m\].
     #[cfg_attr(optimized, inline(always))]
     fn support(&self, geometry: Geometry<'_, I>) -> [I::V; 2] {
         [geometry.lit.a.t, geometry.lit.b.t]
     }
 }
 
-/// A density of a lane group.
+/// The density of a lane group.
 #[derive(Clone, Copy)]
 pub(crate) struct SetUp<I: Isa, D> {
     pub(crate) density: D,
-    /// Which lanes are rays with a medium.
+    /// Which lanes hold a valid ray, emitter and medium.
     pub(crate) valid: I::Mask,
     /// Which lanes can be sampled.
     pub(crate) lit: I::Mask,
@@ -77,7 +77,7 @@ impl<I: Isa, D: Density<I>> SetUp<I, D> {
     }
 }
 
-/// A point that was drawn.
+/// A sampled point.
 #[derive(Clone, Copy)]
 pub(crate) struct Drawn<I: Isa> {
     pub(crate) point: Point<I>,
@@ -91,16 +91,16 @@ pub(crate) struct Drawn<I: Isa> {
 pub(crate) struct Pdf<I: Isa> {
     /// Over distance \[1/m\].
     pub(crate) over_t: I::V,
-    /// The same times `r^2` \[m\]: where it is known as such, `1/r^2` cancels against the integrand's.
+    /// The same times `r^2` \[m\]: next to the emitter it cancels the integrand's `1/r^2` before that overflows.
     pub(crate) times_r2: I::V,
 }
 
 impl<I: Isa> Pdf<I> {
-    /// From a density `p / mass` over the angle at the emitter, `dtheta = h dt / r^2`.
+    /// (1.8): from a density `p / mass` over the angle at the emitter, `dtheta = h dt / r^2`.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn over_angle(p: I::V, mass: I::V, geometry: Geometry<'_, I>, point: &Point<I>) -> Self {
         let p_h = p * geometry.foot.h;
-        // In this order no part of it leaves f32 before the whole does.
+        // In this order no intermediate result leaves f32 before the density does.
         Self { over_t: (p_h / geometry.foot.r_squared(point.t_prime)) / mass, times_r2: p_h / mass }
     }
 

@@ -1,25 +1,35 @@
-//! Chebyshev's method, which is Newton's with the curvature seen to, inside a shrinking bracket, with bisection where a
-//! step leaves it.
+//! The root of an increasing function by Chebyshev's method, which is Newton's with the curvature, inside a shrinking bracket.
+//!
+//! ```text
+//! repeat, at most 24 times, while |f(x)| > tolerance
+//!     low, high = x, high  if f(x) <= 0,  else low, x
+//!     newton = f/f',  bend = newton f''/f'  within [-1, 1]
+//!     next = x - newton (1 + bend/2)
+//!     x = next  if it lies in [low, high],  else (low + high)/2
+//!     stop if next was taken and |f| (bend^2 + 16384 newton^2) <= tolerance
+//! ```
+//!
+//! Each lane takes and stops its steps by its own values: what it computes depends on no other lane.
 
 use crate::simd::{Isa, Lanes, Number, none};
 
-/// Steps that a lane may take before it counts as bisected.
+/// The number of steps beyond which a lane counts as bisected.
 const FEW_STEPS: usize = 8;
-/// Steps after which the iteration ends in any case.
+/// The largest number of steps.
 const STEPS: usize = 24;
 
-/// How much of `f` a step may leave, times the square of the step: in the place of `f'''/(6 f')`, and of what a rough
-/// curvature adds.
+/// The factor of `newton^2` in the estimate of what a step leaves of `f`: it stands for `f'''/(6 f')`, and for the error of a
+/// rough curvature.
 const LEFT: f32 = 16384.0;
 
-/// Where an increasing function takes a value.
+/// The root.
 pub(crate) struct Root<I: Isa> {
     pub(crate) x: I::V,
     /// Which lanes bisected at least once, or took more than [`FEW_STEPS`].
     pub(crate) bisected: I::Mask,
 }
 
-/// What the iteration asks of a function.
+/// A function at a place.
 pub(crate) struct At<I: Isa> {
     pub(crate) value: I::V,
     pub(crate) slope: I::V,
@@ -27,12 +37,10 @@ pub(crate) struct At<I: Isa> {
     pub(crate) curvature: I::V,
 }
 
-/// Solves `f(x) = 0` for `x` in `[low, high]`, where `f` increases.
+/// Solves `f(x) = 0` for `x` in `[low, high]`, where `f` increases, in the `wanted` lanes; the others keep `start`.
 ///
-/// Each step shrinks the bracket by the sign of `f`, then goes to Chebyshev's point if that lies inside, else to the
-/// middle. A lane stops where `|f| <= tolerance`, or after a step so short that little can be left, at most four times the
-/// tolerance where the curvature is rough: what a lane does depends on no other lane. The result lies in the bracket
-/// whatever `f` returns.
+/// The residual is at most `tolerance`, or four times that after a last step with a rough curvature. The result lies in the
+/// bracket whatever `f` returns.
 #[cfg_attr(optimized, inline(always))]
 pub(crate) fn solve<I: Isa>(
     isa: I,
@@ -61,7 +69,7 @@ pub(crate) fn solve<I: Isa>(
         let late = if step < FEW_STEPS { !inside } else { active };
         bisected = bisected | (active & late);
         x = I::V::select(active, I::V::select(inside, next, (low + high) * c(0.5)), x);
-        // What such a step leaves is of third order.
+        // A step of Chebyshev's method leaves a residual of third order.
         let left = size * bend.mul_add(bend, newton * newton * c(LEFT));
         active = active & !(inside & left.le(tolerance));
         if I::V::bits(active) == 0 {

@@ -1,4 +1,17 @@
-//! `p(theta) = 1/Theta`: uniform in the angle at the emitter, so proportional to `1/r^2`.
+//! Uniform in the angle at the emitter, so proportional to `1/r^2`.
+//!
+//! Equations of `docs/mathematics.md`:
+//!
+//! ```text
+//! Theta = atan2(h l, h^2 + t'_a t'_b)                                      (2.7)
+//! p_theta = 1/Theta,  p_t = h / (Theta r^2)                                (3.3)
+//! CDF = atan2(h (t - t_a), h^2 + t'_a t') / Theta                          (3.4)
+//! delta = u Theta from a, or (1 - u) Theta from b                          (3.5)
+//! t, t' from tan(delta/2)                                                  (2.8), (2.9)
+//! ```
+//!
+//! Departure: the angle is measured from `a` for `u` up to 1/2 + [`BIAS`] or 1/2 - `BIAS`, so that more of the variates are
+//! measured from the end nearer to the foot of the perpendicular. From there the way is shorter, and so is its rounding error.
 
 use crate::density::{self, Density, Drawn, Pdf, SetUp};
 use crate::geometry::{Angle, BIAS, Extent, Geometry, Point, RayLanes};
@@ -16,7 +29,7 @@ impl density::Kind for Kind {
 pub(crate) struct EquiAngular<I: Isa> {
     /// `Theta` \[rad\].
     subtended: I::V,
-    /// Up to which variate the angle is measured from `a`.
+    /// The largest variate of which the angle is measured from `a`.
     turn: I::V,
 }
 
@@ -44,6 +57,7 @@ impl<I: Isa> Density<I> for EquiAngular<I> {
 
     #[cfg_attr(optimized, inline(always))]
     fn draw(&self, isa: I, _: Geometry<'_, I>, u: I::V) -> Angle<I> {
+        // (3.5)
         let from_a = u.le(self.turn);
         let share = I::V::select(from_a, u, isa.splat(1.0) - u);
         Angle { from_a, tan_half: tan(isa, isa.splat(0.5) * self.subtended * share) }
@@ -57,11 +71,13 @@ impl<I: Isa> Density<I> for EquiAngular<I> {
 
     #[cfg_attr(optimized, inline(always))]
     fn pdf(&self, isa: I, geometry: Geometry<'_, I>, point: &Point<I>) -> Pdf<I> {
+        // (3.3)
         Pdf::over_angle(isa.splat(1.0), self.subtended, geometry, point)
     }
 
     #[cfg_attr(optimized, inline(always))]
     fn cdf(&self, isa: I, geometry: Geometry<'_, I>, point: &Point<I>) -> I::V {
+        // (3.4)
         let [across, along] = geometry.seen_from(isa, !none(isa), point);
         angle_of(isa, across, along) / self.subtended
     }

@@ -1,7 +1,25 @@
-//! `p(theta)` proportional to `N = alpha cos theta + beta sin theta`, (21), or uniform for an emitter without normal.
+//! Proportional to `N/r^2`; of an emitter without a normal the equi-angular density.
 //!
-//! With `S = alpha sin theta - beta cos theta`, an antiderivative of N, the CDF from an end is `D = S - S_e` over the
-//! mass `S_b - S_a`, and `N^2 = N_e^2 - D (2 S_e + D)`. The angle from that end has `tan(delta/2) = D / (N + N_e)`.
+//! Equations of `docs/mathematics.md`, with its `M` and `G` as `S` and `D`. `N = alpha cos theta + beta sin theta`, and
+//! `S = alpha sin theta - beta cos theta` is an antiderivative of it, counted towards the interval from an end `e`:
+//!
+//! ```text
+//! mass = S_b - S_a = (N_a + N_b) tan(Theta/2)                              (3.6)
+//! D = u mass from a, or (1 - u) mass from b                                (3.7)
+//! N^2 = N_e^2 - D (2 S_e + D)                                              (3.8)
+//! tan(delta/2) = D / (N + N_e); t, t' from it                              (3.9), (2.8), (2.9)
+//! p_t = N h / (mass r^2)                                                   (3.10)
+//! CDF = (N_a + N) tan(delta/2) / mass, delta: the angle from a             (3.6)
+//! ```
+//!
+//! Departures from this, and why:
+//!
+//! 1. `mass` is the product on narrow intervals, where the difference cancels, and the difference on intervals of more than a
+//!    right angle, where `tan(Theta/2)` is large.
+//! 2. The mass is measured from `a` up to half of the angle, were `N` straight in it, plus or minus [`BIAS`](crate::geometry::BIAS),
+//!    else from `b`: (2.8) asks for less than a right angle from the end.
+//! 3. A variate stays 1e-12 of the mass away from the ends, where `N` may be 0.
+//! 4. (3.8) is scaled by a power of two where a ray runs along the emitter's plane: its squares would leave f32.
 
 use crate::density::{self, Density, Drawn, Pdf, SetUp};
 use crate::geometry::{Angle, Extent, Geometry, Point, RayLanes};
@@ -20,34 +38,33 @@ pub(crate) struct PointNormal<I: Isa> {
     /// N at the ends.
     n_a: I::V,
     n_b: I::V,
-    /// `S` there, counted towards the interval.
+    /// `S` at the ends, counted towards the interval.
     s_a: I::V,
     s_b: I::V,
-    /// The integral of N over `theta`; without a normal the angle itself.
+    /// The integral of N over `theta`; without a normal `Theta`.
     mass: I::V,
-    /// Up to which variate the mass is measured from `a`.
+    /// The largest variate of which the mass is measured from `a`.
     turn: I::V,
 }
 
-/// The integral of N between two angles, given N and S at both and `tan_half` of their difference.
-///
-/// The product is exact for narrow intervals; `wide` ones, beyond a right angle, take the difference.
+/// (3.6): the integral of N between two angles, given N and S at both and `tan_half` of their difference. `wide` intervals are
+/// those of more than a right angle.
 #[cfg_attr(optimized, inline(always))]
 pub(crate) fn mass_of_cosine<I: Isa>(n: [I::V; 2], s: [I::V; 2], tan_half: I::V, wide: I::Mask) -> I::V {
     I::V::select(wide, s[1] - s[0], (n[0] + n[1]) * tan_half)
 }
 
-/// `tan(delta/2)` of the angle from an end within which N has the integral `mass`.
+/// (3.8), (3.9): `tan(delta/2)` of the angle from an end within which N has the integral `mass`.
 #[cfg_attr(optimized, inline(always))]
 pub(crate) fn tan_half_at_mass<I: Isa>(isa: I, n_end: I::V, s_end: I::V, mass: I::V) -> I::V {
     let c = |x| isa.splat(x);
-    // Of a ray along the emitter's plane they are all so small that their squares leave f32.
+    // Along the emitter's plane the squares of these leave f32.
     let unit = I::V::select((n_end + s_end.abs()).lt(c(SMALL)), c(LARGE), c(1.0));
     let (n_end, s_end, mass) = (n_end * unit, s_end * unit, mass * unit);
     let n = n_end.mul_add(n_end, -(mass * (s_end + s_end + mass))).max(c(0.0)).sqrt();
     mass / (n + n_end).max(c(1e-37))
 }
-/// Powers of two, so that no bit is rounded.
+/// Powers of two: scaling by them rounds nothing.
 const SMALL: f32 = 1.0 / (1 << 20) as f32;
 const LARGE: f32 = (1u64 << 60) as f32;
 
@@ -74,8 +91,8 @@ impl<I: Isa> Density<I> for PointNormal<I> {
         let tan_half = (g.foot.h * g.lit.length) / ends.r[0].mul_add(ends.r[1], dot);
         let wide = dot.lt(isa.splat(0.0));
         let mut mass = mass_of_cosine::<I>([n_a, n_b], [s_a, s_b], tan_half, wide);
-        // The mass of half of the angle, were N straight between the ends; from a dark end half of the mass is most of it.
-        // It is not where the interval is wide, but there half of the mass is within a right angle of either end.
+        // The share of the mass in half of the angle, were N straight between the ends. In a wide interval N is not, but half of
+        // the mass is within a right angle of either end.
         let sum = n_a + n_b;
         let half_way = (n_a + n_a + sum) / (isa.splat(4.0) * sum);
         let turn = I::V::select(wide, isa.splat(0.5), half_way + g.bias_to_a(isa));
@@ -90,7 +107,7 @@ impl<I: Isa> Density<I> for PointNormal<I> {
     fn draw(&self, isa: I, geometry: Geometry<'_, I>, u: I::V) -> Angle<I> {
         let rest = isa.splat(1.0) - u;
         let from_a = u.le(self.turn);
-        // Off the very end, where N may be 0.
+        // (3.7), away from the end, where N may be 0.
         let mass = self.mass * I::V::select(from_a, u, rest).max(isa.splat(NEAREST));
         let n_end = I::V::select(from_a, self.n_a, self.n_b);
         let s_end = I::V::select(from_a, self.s_a, self.s_b);
@@ -109,6 +126,7 @@ impl<I: Isa> Density<I> for PointNormal<I> {
 
     #[cfg_attr(optimized, inline(always))]
     fn pdf(&self, isa: I, geometry: Geometry<'_, I>, point: &Point<I>) -> Pdf<I> {
+        // (3.10)
         Pdf::over_angle(geometry.cosine(isa, point), self.mass, geometry, point)
     }
 
@@ -116,6 +134,7 @@ impl<I: Isa> Density<I> for PointNormal<I> {
     fn cdf(&self, isa: I, geometry: Geometry<'_, I>, point: &Point<I>) -> I::V {
         let g = geometry;
         let [across, along] = g.seen_from(isa, !none(isa), point);
+        // tan(delta/2) = sin delta/(1 + cos delta), times r_a r above and below; then (3.6).
         let tan_half = across / g.foot.r(g.foot.a).mul_add(point.r, along);
         let (n, s) = (g.cosine(isa, point), g.antiderivative(point.t_prime, point.r));
         let cosines = mass_of_cosine::<I>([self.n_a, n], [self.s_a, s], tan_half, along.lt(isa.splat(0.0)));

@@ -1,14 +1,33 @@
-//! `p(theta)` proportional to `N(theta) P(min(theta, theta_c))`: a Taylor polynomial times the cosine.
+//! The Taylor densities: the cosine `N` times a Taylor polynomial of the transmittance or of the phase function.
 //!
-//! `P` is the order-6 expansion about `theta = 0` of the transmittance or of the phase function. It is trusted up to
-//! `theta_c` and keeps the value it has there beyond, which makes the density positive for every input. So there are
-//! two pieces: below `theta_c` the CDF is inverted by iteration, above it is that of the point-normal density.
+//! Equations of `docs/mathematics.md`, section 4:
 //!
-//! On the first piece everything is a polynomial of the local variable `x` in `[-1, 1]` around its middle: `P` shifted
-//! there, `N` by its sine and cosine series. The closed form (22) of the same integral cancels catastrophically on
-//! short intervals; the oracle has it.
+//! ```text
+//! p_theta proportional to N(theta) P(min(theta, theta_c))                  (4.5)
 //!
-//! The angle may be mirrored (backward scattering, `g < 0`): then `theta` runs from `b` to `a`.
+//! new    first piece, theta up to theta_c: its middle and half width, x = (theta - middle)/half
+//!        P(middle + half x), by synthetic division
+//!        N(x) = N_m cos(half x) - S_m sin(half x), by its series           (4.6)
+//!        P N, and its antiderivative over x
+//!        second piece, beyond theta_c: P(theta_c) times the mass of N      (3.6)
+//! draw   in the first piece solve CDF(x) = u (inversion.rs)
+//!        in the second piece as the point-normal density                   (3.7)-(3.9)
+//! point  t, t' from tan(delta/2)                                           (2.8), (2.9)
+//! pdf    P(min(theta, theta_c)) N h / (mass r^2)                           (1.8)
+//! ```
+//!
+//! `S` is the antiderivative `M` of `N` of section 3.3. For backward scattering, `g < 0`, the angle is mirrored: `theta` then runs
+//! from `b` to `a`.
+//!
+//! Departures from the paper, and why:
+//!
+//! 1. The polynomial is trusted up to `theta_c`, and the density keeps the value `P(theta_c)` beyond. So it is positive for every
+//!    input.
+//! 2. The integral is that of the polynomial `P N` about the middle of the piece, not the closed form (22), which cancels
+//!    catastrophically on short intervals. `oracle::paper` has (22).
+//! 3. The inverse starts from the line through the density at -1, 0 and 1 and two Newton steps on a quintic, not from a
+//!    bisection. The pdf is that at the angle returned, so that a residual is no bias.
+//! 4. `P` and `theta` are in f64 where a density is evaluated: the logarithms of the polynomials have slopes up to 30.
 
 use super::point_normal::{NEAREST, mass_of_cosine, tan_half_at_mass};
 use crate::density::{Density, Drawn, Pdf, SetUp};
@@ -20,11 +39,11 @@ use crate::simd::math::{SIN, angle_of, horner, horner_lanes, sin_cos, tan};
 use crate::simd::{Double, Isa, Lanes, Number, Records};
 use core::marker::PhantomData;
 
-/// The order of the local polynomial of N; odd, as that of the product: even and odd terms are summed in pairs.
+/// The order of the series of N (4.6). It is odd, as the order of the product is: even and odd terms are summed in pairs.
 const COSINE_ORDER: usize = 9;
-/// Steps of Newton's method for the quintic that starts the iteration.
+/// The number of Newton steps on the quintic that starts the iteration.
 const QUINTIC_STEPS: usize = 2;
-/// The order of the product.
+/// The order of `P N`.
 const PRODUCT_ORDER: usize = ORDER + COSINE_ORDER;
 const _: () = assert!(COSINE_ORDER % 2 == 1 && PRODUCT_ORDER % 2 == 1);
 
@@ -36,7 +55,7 @@ pub(crate) trait Expansion<I: Isa>: Copy {
 
 #[derive(Clone, Copy)]
 pub(crate) struct Taylor<I: Isa, E> {
-    /// `P` in the angle `theta`, mirrored where the lane is; its terms cancel near `theta_c`.
+    /// `P` over the (mirrored) angle `theta`; its terms cancel near `theta_c`.
     p: [I::Double; ORDER + 1],
     theta_c: I::Double,
     mirrored: I::Mask,
@@ -49,10 +68,10 @@ pub(crate) struct Taylor<I: Isa, E> {
     product: [I::V; PRODUCT_ORDER + 1],
     /// Its antiderivative over `x`, divided by `x`.
     integral: [I::V; PRODUCT_ORDER + 1],
-    /// What starts the iteration: the values of `P N` at -1, 0 and 1, and the quintic.
+    /// For the start of the iteration: `P N` at -1, 0 and 1, and the quintic.
     three: [I::V; 3],
     quintic: [I::V; 4],
-    /// N at the ends of the second piece, and its antiderivative counted into it.
+    /// N at the ends of the second piece, and its antiderivative S, counted towards the piece.
     n_c: I::V,
     n_b: I::V,
     s_c: I::V,
@@ -69,11 +88,11 @@ pub(crate) struct Taylor<I: Isa, E> {
     expansion: PhantomData<E>,
 }
 
-/// Where a variate leads.
+/// The place of a variate.
 #[derive(Clone, Copy)]
 pub(crate) struct Place<I: Isa> {
     angle: Angle<I>,
-    /// The (mirrored) angle from the foot of the perpendicular, or one beyond `theta_c` where it is that.
+    /// The (mirrored) angle `theta`; any angle beyond `theta_c` stands for all of them.
     theta: I::Double,
     bisected: I::Mask,
 }
@@ -107,8 +126,8 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
         let half = width * c(0.5);
         let middle = theta_a + half.widen();
 
-        // N and S at the middle of the first piece and at its end. N is concave: from the start it halves at most on the
-        // way to the middle, so that what cancels is no more than N.
+        // N and S at the middle of the first piece and at its end. N is concave and so at least half as large at the middle as at
+        // the start: the difference cancels one bit at most.
         let (sin, cos) = sin_cos(isa, half);
         let (n_m, s_m) = (n_a.mul_add(cos, -(s_a * sin)), n_a.mul_add(sin, s_a * cos));
         let (n_c, s_c) = (n_m.mul_add(cos, -(s_m * sin)), n_m.mul_add(sin, s_m * cos));
@@ -118,9 +137,10 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
         let slope_m = I::V::only(g.cosine.has_normal, -s_m);
         let wave = I::V::only(g.cosine.has_normal, half);
 
+        // P N (4.6) and its antiderivative.
         let product = I::V::multiply(&shift::<I>(p, middle, half), &cosine_series(isa, n_m, slope_m, wave));
         let integral = integrate(isa, &product);
-        // At 1 and -1 the even terms and the odd ones are all there is.
+        // At x = 1 the integral is the sum of the even and the odd terms, at x = -1 their difference.
         let integrals = halves_at_1(&integral);
         let below = integrals[1] - integrals[0];
         let scale = integrals[0] + integrals[0];
@@ -131,6 +151,7 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
         let three = [f_a.max(c(0.0)), product[0], f_b.max(c(0.0))];
         let quintic = quintic(isa, product[0], values, integrals);
 
+        // The second piece (3.6).
         let rest = subtended - width;
         let right_angle = c(core::f32::consts::FRAC_PI_2);
         let tan_half = tan(isa, rest.min(right_angle) * c(0.5));
@@ -172,7 +193,7 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
         let (u, rest) = (I::V::select(self.mirrored, rest, u), I::V::select(self.mirrored, u, rest));
         let total = self.mass_1 + self.mass_2;
         let target = u * total;
-        // Where there is no second piece, u = 1 is the end of the first.
+        // Without a second piece, u = 1 is the end of the first.
         let width = self.half + self.half;
         let below = target.lt(self.mass_1);
         let first = below | self.subtended.le(width);
@@ -199,19 +220,19 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
             self.scale * c(1.2e-7),
             wanted,
         );
-        // Off the very ends, where N may be 0.
+        // Away from the ends, where N may be 0.
         let off = self.subtended * c(1e-8);
         let delta = self.half.mul_add(root.x, self.half).max(off);
 
-        // Second piece: from the end, or from its own start where that is near the interval's. It may have less of the mass
-        // than the rounding of the target.
+        // Second piece: from its end, or from its start where that is near the start of the interval. Its mass may be less than
+        // the rounding of the target. (3.7)-(3.9)
         let (from_c, rest) = (target - self.mass_1, (rest * total).min(self.mass_2));
         let by_start = !first & from_c.lt(rest) & width.lt(self.subtended * c(0.25));
         let cosines = I::V::select(by_start, from_c, rest).max(total * c(NEAREST)) / self.p_c;
         let n_end = I::V::select(by_start, self.n_c, self.n_b);
         let s_end = I::V::select(by_start, self.s_c, self.s_b);
         let by_cosines = tan_half_at_mass(isa, n_end, s_end, cosines);
-        // tan of a sum: the first piece comes before.
+        // From the start of the interval: the tangent of a sum, with the angle of the first piece.
         let before = I::V::only(by_start, tan(isa, self.half));
         let by_cosines = (by_cosines + before) / (c(1.0) - by_cosines * before);
 
@@ -239,7 +260,7 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
         self.at(isa, geometry, point, angle(isa, t_prime, geometry.foot.h))
     }
 
-    /// On the first piece from its start, on the second one from the end.
+    /// From the start in the first piece, from the end in the second.
     #[cfg_attr(optimized, inline(always))]
     fn cdf(&self, isa: I, geometry: Geometry<'_, I>, point: &Point<I>) -> I::V {
         let (c, g) = (|x| isa.splat(x), geometry);
@@ -267,8 +288,8 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
 }
 
 impl<I: Isa, E> Taylor<I, E> {
-    /// Where the CDF of the first piece is about `share` and the integral from its middle `value`: the inverse for a
-    /// density linear between -1, 0 and 1, and Newton's method for the quintic.
+    /// The `x` where the CDF of the first piece is about `share`, and the integral from its middle about `value`: the inverse for a
+    /// density that is linear between -1, 0 and 1, then Newton's method for the quintic.
     #[cfg_attr(optimized, inline(always))]
     fn first_guess(&self, isa: I, share: I::V, value: I::V) -> I::V {
         let c = |x| isa.splat(x);
@@ -287,7 +308,7 @@ impl<I: Isa, E> Taylor<I, E> {
             let q = a_5.mul_add(x, a_4).mul_add(x, a_3).mul_add(x, a_2).mul_add(x, f_m);
             let [b_4, b_3, b_2, b_1] = [a_5 * c(5.0), a_4 * c(4.0), a_3 * c(3.0), a_2 + a_2];
             let slope = b_4.mul_add(x, b_3).mul_add(x, b_2).mul_add(x, b_1).mul_add(x, f_m);
-            // Where the density vanishes a step would go anywhere.
+            // The floor keeps a step finite where the density vanishes.
             x = x - x.mul_add(q, -value) / slope.max(self.scale * c(1e-4));
             x = x.max(c(-1.0)).min(c(1.0));
             step += 1;
@@ -295,7 +316,7 @@ impl<I: Isa, E> Taylor<I, E> {
         x
     }
 
-    /// The derivative of `P N` at `x`, about: the second one of the quintic.
+    /// An approximate derivative of `P N` at `x`: the second derivative of the quintic.
     #[cfg_attr(optimized, inline(always))]
     fn curvature(&self, isa: I, x: I::V) -> I::V {
         let c = |x| isa.splat(x);
@@ -303,7 +324,7 @@ impl<I: Isa, E> Taylor<I, E> {
         (a_5 * c(20.0)).mul_add(x, a_4 * c(12.0)).mul_add(x, a_3 * c(6.0)).mul_add(x, a_2 + a_2)
     }
 
-    /// The density at a point whose (mirrored) angle is `theta`.
+    /// (4.5), (1.8): the density at a point whose (mirrored) angle is `theta`.
     #[cfg_attr(optimized, inline(always))]
     fn at(&self, isa: I, geometry: Geometry<'_, I>, point: &Point<I>, theta: I::Double) -> Pdf<I> {
         let p = I::V::narrow(horner_lanes(theta.min(self.theta_c), self.p));
@@ -311,21 +332,24 @@ impl<I: Isa, E> Taylor<I, E> {
     }
 }
 
-/// `theta` of a point \[rad\], within 1.7e-8 of that of the rounded `t'` and `h`, a third of half an ulp: the logarithms
-/// of the polynomials have slopes up to 30.
+/// `theta = atan(t'/h)` \[rad\].
+///
+/// - Types: f32 to f64.
+/// - Max error: 1.7e-8, absolute, for the given `t'` and `h`: a third of half an ulp of f32.
+/// - Range: `h > 0`.
 #[cfg_attr(optimized, inline(always))]
 fn angle<I: Isa>(isa: I, t_prime: I::V, h: I::V) -> I::Double {
     let (c, d) = (|x| isa.splat(x), |x| isa.splat_double(x));
     let size = t_prime.abs();
     let (less, more) = (size.min(h), size.max(h));
     let one_over = c(1.0) / more;
-    // Beyond 45 degrees it is the complement.
+    // Beyond 45 degrees theta is a right angle less the angle of the reciprocal.
     let steep = h.lt(size);
     let sign = I::V::select(t_prime.lt(c(0.0)), c(-1.0), c(1.0));
     let less = less * I::V::select(steep, -sign, sign);
     let quarter = I::V::only(steep, sign).widen();
     let q = (less * one_over).widen();
-    // What the rounding left.
+    // The remainder of the division.
     let rest = less.widen() - q * more.widen();
     let q = rest.mul_add(one_over.widen(), q);
     let z = q * q;
@@ -334,11 +358,11 @@ fn angle<I: Isa>(isa: I, t_prime: I::V, h: I::V) -> I::Double {
     quarter.mul_add(d(core::f64::consts::FRAC_PI_2), atan)
 }
 
-/// Coefficients, highest degree first, of `(atan q / q - 1) / q^2` in `q^2` for `q` up to 1, but for the last two.
+/// Coefficients, highest degree first, of `(atan q / q - 1) / q^2` in `q^2` for `q` up to 1, without the last two, which are f64.
 const ATAN: [f32; 7] =
     [-0.001_602_414, 0.010_025_549, -0.029_446_354, 0.056_127_183, -0.082_897_5, 0.109_102_75, -0.142_554_63];
 
-/// One division by `theta - middle`.
+/// One synthetic division by `theta - middle`, of the coefficients from `first` on.
 #[cfg_attr(optimized, inline(always))]
 fn divide<N: Number>(q: &mut [N; ORDER + 1], first: usize, middle: N) {
     let mut k = ORDER;
@@ -351,7 +375,7 @@ fn divide<N: Number>(q: &mut [N; ORDER + 1], first: usize, middle: N) {
 /// The coefficients of `p(middle + half x)`.
 #[cfg_attr(optimized, inline(always))]
 fn shift<I: Isa>(mut p: [I::Double; ORDER + 1], middle: I::Double, half: I::V) -> [I::V; ORDER + 1] {
-    // Synthetic division by (theta - middle), again and again, leaves the shifted coefficients.
+    // Repeated synthetic division by (theta - middle) leaves the coefficients of P in theta - middle.
     divide(&mut p, 0, middle);
     let mut q = [I::V::narrow(p[0]); ORDER + 1];
     let mut k = 1;
@@ -375,11 +399,11 @@ fn shift<I: Isa>(mut p: [I::Double; ORDER + 1], middle: I::Double, half: I::V) -
     q
 }
 
-/// Coefficients, highest degree first, of `(cos y - 1) / y^2` in `y^2`, for `|y| <= pi/2`: with an error of 7.3e-8 of
-/// the cosine, of which an integral keeps less.
+/// Coefficients, highest degree first, of `(cos y - 1) / y^2` in `y^2`, for `|y| <= pi/2`: the error of the cosine is 7.3e-8, that
+/// of its integral is smaller.
 const COS: [f32; 4] = [2.319_438_7e-5, -1.385_592_7e-3, 4.166_399e-2, -0.499_999_3];
 
-/// The coefficients of `n cos(wave x) + slope sin(wave x)` for `|x| <= 1`, `wave <= pi/2`.
+/// (4.6): the coefficients of `n cos(wave x) + slope sin(wave x)` for `|x| <= 1`, `wave <= pi/2`.
 #[cfg_attr(optimized, inline(always))]
 fn cosine_series<I: Isa>(isa: I, n: I::V, slope: I::V, wave: I::V) -> [I::V; COSINE_ORDER + 1] {
     let mut q = [n; COSINE_ORDER + 1];
@@ -410,7 +434,8 @@ fn halves_at_1<V: Lanes>(p: &[V; PRODUCT_ORDER + 1]) -> [V; 2] {
     [even, odd]
 }
 
-/// The polynomial with the given coefficients, from degree 0 on, the even and the odd ones apart: half the latency.
+/// The polynomial of `x` with coefficients `p`, lowest degree first, given `z = x^2`: even and odd terms are summed apart, which
+/// halves the latency.
 #[cfg_attr(optimized, inline(always))]
 fn by_halves<V: Lanes>(x: V, z: V, p: &[V; PRODUCT_ORDER + 1]) -> V {
     let (mut even, mut odd) = (p[PRODUCT_ORDER - 1], p[PRODUCT_ORDER]);
@@ -423,8 +448,9 @@ fn by_halves<V: Lanes>(x: V, z: V, p: &[V; PRODUCT_ORDER + 1]) -> V {
     odd.mul_add(x, even)
 }
 
-/// The coefficients, from degree 2 on, of the quintic that agrees with an antiderivative and its slope at -1, 0 and 1:
-/// given the slope at 0, and what the even and the odd terms of the slope and of the antiderivative over `x` are at 1.
+/// The coefficients, from degree 2 on, of the quintic that agrees with an antiderivative and its slope at -1, 0 and 1. `f_m` is
+/// the slope at 0; `values` and `integrals` are the sums at 1 of the even and of the odd terms of the slope, and of the
+/// antiderivative over `x`.
 #[cfg_attr(optimized, inline(always))]
 fn quintic<I: Isa>(isa: I, f_m: I::V, values: [I::V; 2], integrals: [I::V; 2]) -> [I::V; 4] {
     let c = |x| isa.splat(x);

@@ -1,4 +1,6 @@
-//! The expansion of the phase function, which is the medium's: [`Expanded::of_phase`].
+//! The Taylor density of the phase function: (4.5) of `docs/mathematics.md` with the polynomial (4.3) up to `theta_c` of (4.4).
+//!
+//! The polynomial depends on the medium alone, and is made with it: [`Expanded::of_phase`].
 
 use super::taylor::{Expansion, Taylor};
 use crate::density::Kind;

@@ -1,4 +1,11 @@
-//! The expansion of the transmittance `exp(-m (tan theta + sec theta))`, `m = mu_t h`, (4)-(11), over its value at 0.
+//! The Taylor density of the transmittance: (4.5) of `docs/mathematics.md` with the polynomial (4.1) up to `theta_c` of (4.2).
+//!
+//! The polynomial expands `exp(-m (tan theta + sec theta - 1))`, `m = mu_t h`: the transmittance over its value at 0, (4)-(11).
+//!
+//! Departures from the paper, and why:
+//!
+//! 1. `m` stops at 32. The trusted range is below 0.01 rad there, and higher powers of `m` leave f32.
+//! 2. `theta_c` is the 16th power of a polynomial: there is no exponential in f64.
 
 use super::taylor::{Expansion, Taylor};
 use crate::density::Kind;
@@ -15,13 +22,13 @@ impl Kind for OfTransmittance {
     type On<I: Isa> = Taylor<I, Self>;
 }
 
-/// Beyond this `m` the density is that of a thinner medium: the trusted range is below 0.01 rad there, and powers of
-/// `m` leave f32.
+/// The largest `m`; a denser medium has the density of this one.
 const THICKEST: f64 = 32.0;
 
 impl<I: Isa> Expansion<I> for OfTransmittance {
     #[cfg_attr(optimized, inline(always))]
     fn expand(isa: I, geometry: Geometry<'_, I>, medium: &MediumLanes<I>) -> Expanded<I> {
+        // (4.1)
         let m = (medium.mu_t.widen() * geometry.foot.h.widen()).min(isa.splat_double(THICKEST));
         let p = [
             isa.splat_double(1.0),
@@ -36,7 +43,11 @@ impl<I: Isa> Expansion<I> for OfTransmittance {
     }
 }
 
-/// `exp(0.210824 - 0.15974 m)` for `m` up to [`THICKEST`], by its 16th root. Max error 1.2e-9, absolute.
+/// (4.2): `exp(0.210824 - 0.15974 m)`, by its 16th root.
+///
+/// - Types: f64.
+/// - Max error: 1.2e-9, absolute.
+/// - Range: `[0, 32]`, to [`THICKEST`].
 #[cfg_attr(optimized, inline(always))]
 fn trusted<I: Isa>(isa: I, m: I::Double) -> I::Double {
     let mut power = horner_double(isa, m, ROOT);
@@ -48,7 +59,7 @@ fn trusted<I: Isa>(isa: I, m: I::Double) -> I::Double {
     power
 }
 
-/// Of `exp((0.210824 - 0.15974 m) / 16)`, highest degree first: a minimax fit of its 16th power.
+/// Coefficients, highest degree first, of `exp((0.210824 - 0.15974 m) / 16)`: a minimax fit of its 16th power.
 const ROOT: [f64; 6] = [
     -7.378_751_931_399e-13,
     4.167_911_492_854e-10,
@@ -58,7 +69,7 @@ const ROOT: [f64; 6] = [
     1.013_263_692_561_421,
 ];
 
-/// Numerators over a factorial.
+/// `numerators` over `factorial`.
 #[cfg_attr(optimized, inline(always))]
 const fn over<const K: usize>(factorial: i32, numerators: [i32; K]) -> [f64; K] {
     let mut quotients = [0.0; K];

@@ -1,4 +1,18 @@
-//! `p(t) = mu_t exp(-mu_t (t - t_min)) / (1 - exp(-mu_t (t_max - t_min)))`: free-flight sampling, cut off at `t_max`.
+//! Free-flight sampling, cut off at `t_max`.
+//!
+//! With `s = t - t_min` and `l = t_max - t_min`, equations of `docs/mathematics.md`:
+//!
+//! ```text
+//! p_t = mu_t exp(-mu_t s) / (1 - exp(-mu_t l))                             (3.1)
+//! s = -ln(1 - u (1 - exp(-mu_t l))) / mu_t                                 (3.2)
+//! CDF = (1 - exp(-mu_t s)) / (1 - exp(-mu_t l))
+//! ```
+//!
+//! Departures from this, and why:
+//!
+//! 1. The argument of the logarithm is `(1 - u) + u exp(-mu_t l)`, exact where it is small.
+//! 2. Where `mu_t l` is below 1e-30 the density is constant: (3.1) would divide 0 by 0.
+//! 3. The argument of the logarithm is at least 1e-37, so that the pdf of `u` = 1 is not 0.
 
 use crate::density::{self, Density, Drawn, Pdf, SetUp};
 use crate::geometry::{Extent, Geometry, Point, RayLanes};
@@ -17,16 +31,17 @@ pub(crate) struct Transmittance<I: Isa> {
     mu_t: I::V,
     t_min: I::V,
     t_max: I::V,
-    /// `1 - exp(-mu_t L)`, and the exponential itself.
+    /// `1 - exp(-mu_t l)`, and `exp(-mu_t l)`.
     absorbed: I::V,
     passed: I::V,
+    /// `l`
     length: I::V,
-    /// Where `mu_t L` is so small that the density is constant.
+    /// Which lanes have so small a `mu_t l` that the density is constant.
     uniform: I::Mask,
 }
 
 impl<I: Isa> Transmittance<I> {
-    /// The density at the distance `s` from `t_min` \[1/m\].
+    /// The density (3.1) at the distance `s` from `t_min` \[1/m\].
     #[cfg_attr(optimized, inline(always))]
     fn at(&self, isa: I, s: I::V) -> I::V {
         let falling = exp(isa, -(self.mu_t.widen() * s.widen())) * (self.mu_t / self.absorbed);
@@ -40,7 +55,7 @@ impl<I: Isa> Density<I> for Transmittance<I> {
     type Place = I::V;
     type SetUps = Records<SetUp<I, Self>>;
 
-    /// Asks the emitter only whether it faces the ray, not how much of it.
+    /// A lane is sampled if any part of its ray is lit; which part does not matter.
     #[cfg_attr(optimized, inline(always))]
     fn new(
         isa: I,
@@ -59,7 +74,7 @@ impl<I: Isa> Density<I> for Transmittance<I> {
 
     #[cfg_attr(optimized, inline(always))]
     fn draw(&self, isa: I, _: Geometry<'_, I>, u: I::V) -> I::V {
-        // 1 - u (1 - e) = (1 - u) + u e, exact where it is small; the floor keeps the pdf of u = 1 above 0.
+        // (3.2)
         let remaining = u.mul_add(self.passed, isa.splat(1.0) - u).max(isa.splat(1e-37));
         let depth = neg_ln_1m(isa, u * self.absorbed, remaining);
         I::V::select(self.uniform, u * self.length, depth / self.mu_t).min(self.length)

@@ -1,5 +1,5 @@
-//! Product densities by their number of knots, each in a module: the compiler makes one unit of machine code of a module,
-//! and these are the largest.
+//! The product densities by number of knots, each in a module of its own: the compiler makes a unit of machine code of each
+//! module, and these are the largest.
 
 pub(crate) mod three {
     use super::super::Product;
