@@ -1,11 +1,32 @@
-//! A ray and an emitter as the densities see them: distances from the foot of the perpendicular, clipped to the lit side.
+//! The geometry of a ray and an emitter: the foot of the perpendicular, the cosine, and the lit interval.
 //!
-//! All of it rests on three numbers: `t_h` (where the ray passes the emitter), `h` (at what distance) and `t' = t - t_h`.
-//! With them nothing below cancels, however far the emitter, short the interval or small `h`: angles are taken between two
-//! points of the ray, distances from one of its ends or from the foot.
+//! Equations of `docs/mathematics.md`, section 2:
 //!
-//! They are found in f32, with what roundings leave where that matters (`single`), and in f64 (`double`) for the rays for
-//! which this is not enough.
+//! ```text
+//! t_h = (y - o).d,   h = |o + t_h d - y|                                   (2.1), (2.2)
+//! t' = t - t_h,   r = sqrt(h^2 + t'^2)                                     (2.3)
+//! m(t) = n.(x - y) = N r = alpha h + beta t'                               (2.4)
+//! lit: the part [t_a, t_b] of [t_min, t_max] with m > 0, l = t_b - t_a
+//! Theta = atan2(h l, h^2 + t'_a t'_b)                                      (2.7)
+//! a point at the angle delta from an end e, tau = tan(delta/2):
+//!     q = h (1 - tau^2) - 2 tau t'_e
+//!     distance from e = 2 tau (h^2 + t'_e^2) / q                           (2.8)
+//!     t' = h (t'_e (1 - tau^2) + 2 tau h) / q                              (2.9)
+//! ```
+//!
+//! `t_h`, `h` and `m` are computed in `single` (f32) and, for rays for which that is not enough, in `double` (f64), those of spots
+//! in `cone`. This file has what follows from them.
+//!
+//! Departures from the plain formulas, and why:
+//!
+//! 1. `t_a`, `t_b`, `t_h`, `h^2` and a point's `t'` are an f32 and the remainder of its rounding; `t` is computed from the nearest of
+//!    `t_a`, `t_b` and `t_h`.
+//! 2. `m` is computed from the end where it is smaller (2.5): both terms are positive, and it is exactly 0 where the interval
+//!    ends at `m` = 0.
+//! 3. Angles are those between two points of the ray (2.6), never differences of angles, which would lose all digits of a short
+//!    interval.
+//! 4. `t'` of (2.9) is the end's plus (2.8) where the point is near the end.
+//! 5. Intervals and cosines below what f32 can tell from none count as dark: see [`Geometry::lit`] and [`Geometry::bright`].
 
 mod cone;
 mod double;
@@ -18,12 +39,12 @@ use crate::scene::{FARTHEST, UNIT_TOLERANCE};
 use crate::simd::math::{angle_of, reciprocal};
 use crate::simd::{Double, Isa, Lanes, Number, none};
 
-/// How much of the geometry is asked for: each has what those before it have.
+/// The part of the geometry that is computed: each variant includes those before it.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Extent {
     /// Whether anything is lit.
     Lit,
-    /// What is lit, and the foot of the perpendicular.
+    /// The lit interval, and the foot of the perpendicular.
     Foot,
     /// The emitter's cosine.
     Cosine,
@@ -38,14 +59,14 @@ pub(crate) struct RayLanes<I: Isa> {
 }
 
 impl<I: Isa> RayLanes<I> {
-    /// Where the ray ends \[m\]: no farther than [`FARTHEST`]; NaN stays NaN.
+    /// The end of the ray \[m\], at most [`FARTHEST`]; NaN stays NaN.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn end(&self, isa: I) -> I::V {
         isa.splat(FARTHEST).min(self.t_max)
     }
 }
 
-/// Their emitters.
+/// The emitters of a lane group.
 #[derive(Clone, Copy)]
 pub(crate) struct EmitterLanes<I: Isa> {
     position: [I::V; 3],
@@ -54,12 +75,12 @@ pub(crate) struct EmitterLanes<I: Isa> {
     valid: I::Mask,
     /// Which lanes have a normal of length 1, or none, and are not very far away.
     plain: I::Mask,
-    /// `n.(x - y)` in the emitter's plane: 0, but without a normal it is larger than anything.
+    /// `n.(x - y)` in the emitter's plane: 0; without a normal larger than any `m`.
     in_plane: I::V,
 }
 
 impl<I: Isa> EmitterLanes<I> {
-    /// The normal (0, 0, 0) stands for none.
+    /// The normal (0, 0, 0) means none.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn new(isa: I, position: [I::V; 3], normal: [I::V; 3]) -> Self {
         let size = normal[0].abs() + normal[1].abs() + normal[2].abs();
@@ -73,15 +94,14 @@ impl<I: Isa> EmitterLanes<I> {
     }
 }
 
-/// By how much the square of a unit vector's length may differ from 1.
+/// The largest `||v|^2 - 1|` of a unit vector `v`.
 const TOLERANCE: f32 = 2.001 * UNIT_TOLERANCE;
 
-/// Coordinates up to this leave room for products of them in f32 \[m\].
+/// The largest coordinate of which products stay within f32 \[m\].
 const PLAIN: f32 = 1e15;
 
-/// For how much of the variates beyond those of half of the angle a point is still measured from the end that is nearer to
-/// the foot of the perpendicular. From the other end the way to it is long, and what it leaves to the near end would have
-/// the error of all of it.
+/// The share of the variates, beyond those of half of the angle, of which a point is still measured from the end that is nearer to
+/// the foot of the perpendicular. From the other end the way is long, and the short rest to the near end would have its error.
 pub(crate) const BIAS: f32 = 0.05;
 
 /// The part of the ray that the emitter faces.
@@ -93,24 +113,24 @@ pub(crate) struct Lit<I: Isa> {
     pub(crate) b: End<I>,
     /// `t_b - t_a` \[m\]; 0 where nothing is lit.
     pub(crate) length: I::V,
-    /// Which lanes hold a ray and an emitter at all; in f32 which of them need no f64.
+    /// Which lanes hold a valid ray and emitter; of `single` which of them need no f64.
     pub(crate) valid: I::Mask,
 }
 
-/// The emitter's cosine N along the ray, as `m = n.(x - y) = N r` \[m\].
+/// The emitter's cosine `N` along the ray, as `m = n.(x - y) = N r` \[m\] (2.4).
 #[derive(Clone, Copy)]
 pub(crate) struct Cosine<I: Isa> {
-    /// `m` at the end of the lit interval where it is smaller, `a` where `beta >= 0`, else `b`; whatever it is without a
-    /// normal, and exactly 0 where the interval was clipped.
+    /// `m` at the end of the lit interval where it is smaller: `a` where `beta >= 0`, else `b`. It is exactly 0 where the interval
+    /// was clipped, and means nothing without a normal.
     pub(crate) m_least: I::V,
-    /// `beta = n.d`, by which `m` grows along the ray.
+    /// `beta = n.d`, the slope of `m` along the ray.
     pub(crate) beta: I::V,
     /// Which lanes have an emitter with a normal.
     pub(crate) has_normal: I::Mask,
 }
 
 impl<I: Isa> Cosine<I> {
-    /// That of emitters without a normal.
+    /// For emitters without a normal.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn none(isa: I) -> Self {
         let zero = isa.splat(0.0);
@@ -123,7 +143,7 @@ impl<I: Isa> Cosine<I> {
         Ramp { least: self.m_least, slope: self.beta.abs(), rising: self.rising(isa) }
     }
 
-    /// Where `m` grows along the ray, or stays.
+    /// Which lanes have an `m` that grows along the ray, or stays.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn rising(&self, isa: I) -> I::Mask {
         isa.splat(0.0).le(self.beta)
@@ -135,24 +155,24 @@ impl<I: Isa> Cosine<I> {
 pub(crate) struct End<I: Isa> {
     /// Distance along the ray \[m\], rounded.
     pub(crate) t: I::V,
-    /// What the rounding left: 0 where the ray itself ends.
+    /// The remainder of its rounding: 0 where the ray itself ends.
     t_low: I::V,
 }
 
-/// The foot of the perpendicular from the emitter to the ray's line, and where the lit interval lies from there.
+/// The foot of the perpendicular from the emitter to the ray's line, and the ends of the lit interval as seen from there.
 #[derive(Clone, Copy)]
 pub(crate) struct Foot<I: Isa> {
-    /// Distance from the emitter \[m\], its square, and what the rounding of that left.
+    /// Distance from the emitter \[m\], its square, and the remainder of the square's rounding.
     pub(crate) h: I::V,
     pub(crate) h_squared: I::V,
     h_squared_low: I::V,
-    /// A number near the distance along the ray \[m\], and what it lacks.
+    /// Distance along the ray \[m\], approximate, and the difference to the exact one.
     t_h: I::V,
     t_h_low: I::V,
     /// `t' = t - t_h` at the ends of the lit interval \[m\].
     pub(crate) a: I::V,
     pub(crate) b: I::V,
-    /// `m` at the foot \[m\]: with `beta`, `m = alpha_h + beta t'`, (21).
+    /// `alpha h`, which is `m` at the foot \[m\] (2.4).
     pub(crate) alpha_h: I::V,
 }
 
@@ -162,11 +182,11 @@ pub(crate) struct Geometry<'g, I: Isa> {
     pub(crate) lit: &'g Lit<I>,
     pub(crate) cosine: &'g Cosine<I>,
     pub(crate) foot: &'g Foot<I>,
-    /// Where there are spots; other lanes have `is_spot` false.
+    /// The cones of a group with spots; its other lanes have `is_spot` false.
     pub(crate) cone: Option<&'g Cone<I>>,
 }
 
-/// The ends of the lit interval as the emitter sees them: at `a` and at `b`.
+/// The ends `a` and `b` of the lit interval as seen from the emitter.
 #[derive(Clone, Copy)]
 pub(crate) struct Ends<I: Isa> {
     /// Distance to the emitter \[m\].
@@ -178,9 +198,9 @@ pub(crate) struct Ends<I: Isa> {
 /// A direction from the emitter within the lit interval.
 #[derive(Clone, Copy)]
 pub(crate) struct Angle<I: Isa> {
-    /// Which lanes measure it from the direction of `a`, the others from that of `b`.
+    /// Which lanes measure the angle from `a`; the others measure it from `b`.
     pub(crate) from_a: I::Mask,
-    /// `tan(delta/2) <= 1` of the angle `delta` from there.
+    /// `tau = tan(delta/2)`, at most 1, of the angle `delta` from that end.
     pub(crate) tan_half: I::V,
 }
 
@@ -191,15 +211,15 @@ pub(crate) struct Point<I: Isa> {
     pub(crate) t: I::V,
     /// `t - t_h` \[m\], exact to a few ulp also where `t` cannot resolve it.
     pub(crate) t_prime: I::V,
-    /// What is known of it beyond its rounding.
+    /// The remainder of its rounding, as far as known.
     t_prime_low: I::V,
     /// Distance to the emitter \[m\].
     pub(crate) r: I::V,
-    /// `n.(x - y) = N r` \[m\], of a spot `S r`, whatever it is without either; not negative.
+    /// `n.(x - y) = N r` \[m\], of a spot `S r`; not negative. It means nothing for other emitters.
     m: I::V,
 }
 
-/// The records of a lane group by themselves.
+/// The geometry of a lane group, owned.
 pub(crate) type Located<I> = (Lit<I>, Cosine<I>, Foot<I>);
 
 /// The geometry of a lane group in f64.
@@ -242,14 +262,14 @@ pub(crate) fn pick<I: Isa>(hard: I::Mask, yes: &Located<I>, no: Geometry<'_, I>)
 }
 
 impl<I: Isa> Geometry<'_, I> {
-    /// Which lanes have a part that the emitter faces.
+    /// Which lanes have a lit interval.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn faced(&self, isa: I) -> I::Mask {
         isa.splat(1e-18).lt(self.lit.length)
     }
 
-    /// Which of these have an interval whose angle and length f32 can tell from none: it subtends more than 1e-30 rad, and is
-    /// longer than 1e-36 of `r^2`.
+    /// Which lanes have a lit interval that f32 can tell from none: it subtends more than 1e-30 rad, and is longer than 1e-36 of
+    /// `r^2`.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn lit(&self, isa: I) -> I::Mask {
         // Without a root: (|t'| + h)/1.42 is r or up to 1.42 times less.
@@ -259,15 +279,15 @@ impl<I: Isa> Geometry<'_, I> {
         self.faced(isa) & wide
     }
 
-    /// The same, given the angle that the lit interval subtends.
+    /// The same, given `Theta`.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn lit_by_angle(&self, isa: I, subtended: I::V) -> I::Mask {
-        // Of an interval that is short against r, it is r_a r_b.
+        // r_a r_b, where the interval is short against r.
         let rr = self.dot_of_ends().abs();
         self.faced(isa) & isa.splat(1e-30).lt(subtended) & (rr * isa.splat(1e-36)).lt(self.lit.length)
     }
 
-    /// The ends as the emitter sees them.
+    /// The ends as seen from the emitter (2.3), (2.4).
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn ends(&self, isa: I) -> Ends<I> {
         let r = [self.foot.r(self.foot.a), self.foot.r(self.foot.b)];
@@ -276,8 +296,7 @@ impl<I: Isa> Geometry<'_, I> {
         Ends { r, n: [cosine(m_a, r[0]), cosine(m_b, r[1])] }
     }
 
-    /// Which lanes have more than 1e-25 of the light that an emitter faced squarely would give: below that N has no more
-    /// to say in f32.
+    /// Which lanes have more than 1e-25 of the light of an emitter faced squarely: f32 cannot resolve `N` below that.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn bright(&self, isa: I, ends: &Ends<I>) -> I::Mask {
         let least = isa.splat(1e-25);
@@ -293,14 +312,14 @@ impl<I: Isa> Geometry<'_, I> {
         self.dot_of_ends().lt(isa.splat(0.0))
     }
 
-    /// `h (|alpha| + |beta|)` \[m\]: no cosine is larger, nor the largest one less than two thirds of it.
+    /// `h (|alpha| + |beta|)` \[m\]: at least `h` times the largest cosine, and at most 1.5 times that.
     #[cfg_attr(optimized, inline(always))]
     fn greatest_cosine_h(&self) -> I::V {
         self.cosine.beta.abs().mul_add(self.foot.h, self.foot.alpha_h.abs())
     }
 
-    /// Which ends have less than `share` of `|alpha| + |beta|`, the size of the cosine, or where the interval subtends less
-    /// than a right angle, of the sum of those at the ends; of a spot, of its full intensity.
+    /// Which ends are dark: their cosine is less than `share` of `|alpha| + |beta|`, or of `N_a + N_b` where the interval subtends
+    /// less than a right angle. The end of a spot is dark if its falloff is less than `share`.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn dark_ends(&self, isa: I, ends: &Ends<I>, share: f32) -> [I::Mask; 2] {
         let (n_a, n_b) = (ends.n[0] * self.foot.h, ends.n[1] * self.foot.h);
@@ -315,7 +334,7 @@ impl<I: Isa> Geometry<'_, I> {
         ]
     }
 
-    /// The falloff at the ends.
+    /// The falloff `S` at the ends.
     #[cfg_attr(optimized, inline(always))]
     fn falloff_at_ends(&self, isa: I, cone: &Cone<I>, ends: &Ends<I>) -> [I::V; 2] {
         let (zero, length, [r_a, r_b], [m_a, m_b]) = (isa.splat(0.0), self.lit.length, ends.r, self.m_at_ends(isa));
@@ -327,13 +346,13 @@ impl<I: Isa> Geometry<'_, I> {
         ]
     }
 
-    /// The angle `Theta` that the lit interval subtends at the emitter, in `(0, pi]` \[rad\].
+    /// (2.7): the angle `Theta` that the lit interval subtends at the emitter, in `(0, pi]` \[rad\].
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn subtended(&self, isa: I) -> I::V {
         angle_of(isa, self.foot.h * self.lit.length, self.dot_of_ends())
     }
 
-    /// `BIAS` where `a` is the end nearer to the foot of the perpendicular, else minus that.
+    /// [`BIAS`] where `a` is the end nearer to the foot of the perpendicular, else `-BIAS`.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn bias_to_a(&self, isa: I) -> I::V {
         let near_a = self.foot.a.abs().lt(self.foot.b.abs());
@@ -346,7 +365,7 @@ impl<I: Isa> Geometry<'_, I> {
         self.foot.a.mul_add(self.foot.b, self.foot.h_squared)
     }
 
-    /// `S = alpha sin theta - beta cos theta` at the ends: `dS/dtheta = N`.
+    /// The antiderivative `alpha sin theta - beta cos theta` of `N` over `theta` at the ends: `M` of section 3.3.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn antiderivatives(&self, ends: &Ends<I>) -> [I::V; 2] {
         [self.antiderivative(self.foot.a, ends.r[0]), self.antiderivative(self.foot.b, ends.r[1])]
@@ -359,8 +378,8 @@ impl<I: Isa> Geometry<'_, I> {
         alpha.mul_add(t_prime, -beta_h) / r
     }
 
-    /// `h` times the way from `a` to a point of the lit interval, and `r_a r` times the cosine of the angle between them
-    /// \[m^2\]; or from `b`.
+    /// The arguments of `atan2` in (2.6) for the angle between an end and a point of the lit interval \[m^2\]: `h` times the way
+    /// between them, and `r_e r` times the cosine of the angle. The end is `a` in the lanes of `from_a`, else `b`.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn seen_from(&self, isa: I, from_a: I::Mask, point: &Point<I>) -> [I::V; 2] {
         let way = I::V::select(from_a, self.way_from_a(isa, point.t), self.way_to_b(isa, point.t));
@@ -368,24 +387,22 @@ impl<I: Isa> Geometry<'_, I> {
         [self.foot.h * way, end.mul_add(point.t_prime, self.foot.h_squared)]
     }
 
-    /// The point at an angle `delta` from an end, with `tau = tan(delta/2)`.
-    ///
-    /// With `t'_e` counted towards the interval, its distance from the end is `2 tau r_e^2 / D` and its `t'` is
-    /// `h (t'_e (1 - tau^2) + 2 tau h) / D`, where `D = h (1 - tau^2) - 2 tau t'_e`.
+    /// (2.8), (2.9): the point at an angle from an end.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn point_at_angle(&self, isa: I, angle: &Angle<I>) -> Point<I> {
         let c = |x| isa.splat(x);
         let Angle { from_a, tan_half: tau } = *angle;
         let (h, h_squared) = (self.foot.h, self.foot.h_squared);
         let of_end = |a: I::V, b: I::V| I::V::select(from_a, a, b);
-        // Distances towards b, or towards a.
+        // t'_e counted towards the interval, and 1/q.
         let sign = of_end(c(1.0), c(-1.0));
         let te = sign * of_end(self.foot.a, self.foot.b);
         let re_squared = te.mul_add(te, h_squared);
         let scale = c(1.0) / (-tau).mul_add(h.mul_add(tau, te + te), h);
+        // (2.8), (2.9)
         let offset = ((tau + tau) * (re_squared * scale)).min(self.lit.length);
         let by_angle = (h * scale) * tau.mul_add((-te).mul_add(tau, h + h), te);
-        // Not far from the end it is known better by that.
+        // Near the end, t' is more exact as the end's plus the offset.
         let t_prime = I::V::select((offset + offset).lt(te.abs()), te + offset, by_angle);
         // t from the end or from the foot, whichever is nearer.
         let near_end = offset.lt(t_prime.abs());
@@ -401,7 +418,7 @@ impl<I: Isa> Geometry<'_, I> {
         Point { t, t_prime, t_prime_low: c(0.0), r, m }
     }
 
-    /// The point at these distances from the ends and from the foot of the perpendicular.
+    /// The point with these distances from the ends and from the foot of the perpendicular.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn point_between(&self, isa: I, from_a: I::V, to_b: I::V, t_prime: I::V) -> Point<I> {
         let r = self.foot.r(t_prime);
@@ -410,7 +427,7 @@ impl<I: Isa> Geometry<'_, I> {
         Point { t, t_prime, t_prime_low: isa.splat(0.0), r, m }
     }
 
-    /// `m` from the end where it is smaller: both terms are positive. Of a spot it is `S r`.
+    /// (2.5): `m`, from the end where it is smaller; of a spot `S r`.
     #[cfg_attr(optimized, inline(always))]
     fn m_between(&self, isa: I, from_a: I::V, to_b: I::V, r: I::V) -> I::V {
         let m = self.cosine.ramp(isa).between(from_a, to_b);
@@ -419,7 +436,7 @@ impl<I: Isa> Geometry<'_, I> {
         I::V::select(cone.is_spot, cone.falloff(isa, before, after, m / r) * r, m)
     }
 
-    /// `m` of a point on the ray: 0 outside the cone of a spot, also if its edge is hard.
+    /// The same for a point that may lie outside the lit interval: 0 outside the cone of a spot, also if its edge is hard.
     #[cfg_attr(optimized, inline(always))]
     fn m_inside(&self, isa: I, from_a: I::V, to_b: I::V, r: I::V) -> I::V {
         let zero = isa.splat(0.0);
@@ -436,8 +453,7 @@ impl<I: Isa> Geometry<'_, I> {
         [I::V::select(rising, least, most), I::V::select(rising, most, least)]
     }
 
-    /// The same with the `t'` and the `r` of what was rounded to `t`, where `t` is smaller than about `r` and so resolves
-    /// it: they are exact then.
+    /// `point` with the `t'` and `r` of the rounded `t`, where `t` is smaller than about `r` and so resolves `r`.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn as_rounded(&self, point: Point<I>, about_r: I::V) -> Point<I> {
         let t_prime = I::V::select(point.t.lt(about_r), self.foot.t_prime(point.t)[0], point.t_prime);
@@ -468,14 +484,14 @@ impl<I: Isa> Geometry<'_, I> {
         Point { t, t_prime, t_prime_low, r, m }
     }
 
-    /// The start of the lit interval, given `r` there.
+    /// The point at the start of the lit interval, given `r` there.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn start(&self, isa: I, r_a: I::V) -> Point<I> {
         let [m, _] = self.m_at_ends(isa);
         Point { t: self.lit.a.t, t_prime: self.foot.a, t_prime_low: isa.splat(0.0), r: r_a, m }
     }
 
-    /// `X` and `r` \[m\] in f64 at the ends of the lit interval, given `r` there as rounded.
+    /// `X` and `r` \[m\] in f64 at the ends of the lit interval, given the rounded `r` there.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn exact_ends(&self, isa: I, [r_a, r_b]: [I::V; 2]) -> [(I::Double, I::Double); 2] {
         [self.exact_end(isa, &self.lit.a, r_a), self.exact_end(isa, &self.lit.b, r_b)]
@@ -495,13 +511,13 @@ impl<I: Isa> Geometry<'_, I> {
         ((t - self.lit.a.t) - self.lit.a.t_low).max(isa.splat(0.0))
     }
 
-    /// And from its end.
+    /// The distance of `t` from the end of the lit interval \[m\], 0 beyond it.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn way_to_b(&self, isa: I, t: I::V) -> I::V {
         ((self.lit.b.t - t) + self.lit.b.t_low).max(isa.splat(0.0))
     }
 
-    /// What is left of the interval beyond `offset` from one end: by the length, or by `t'` where that is smaller.
+    /// The distance to the other end, of a point `offset` from one end: from `l`, or from `t'` where that is smaller.
     #[cfg_attr(optimized, inline(always))]
     fn rest(&self, isa: I, offset: I::V, t_prime: I::V, far_t_prime: I::V) -> I::V {
         let by_length = (self.lit.length - offset).max(isa.splat(0.0));
@@ -509,7 +525,7 @@ impl<I: Isa> Geometry<'_, I> {
         I::V::select(self.lit.length.lt(size), by_length, (t_prime - far_t_prime).abs())
     }
 
-    /// `t` from the nearest of the places that are known exactly: the ends, and `t_h`.
+    /// `t` from the nearest of `t_a`, `t_b` and `t_h`.
     #[cfg_attr(optimized, inline(always))]
     fn distance(&self, t_prime: I::V, from_a: I::V, to_b: I::V) -> I::V {
         let at_b = to_b.lt(from_a);
@@ -520,19 +536,19 @@ impl<I: Isa> Geometry<'_, I> {
         self.within(base + (low + pick(t_prime, from_a, -to_b)))
     }
 
-    /// `t`, or the nearer end of the lit interval.
+    /// `t`, clamped to the lit interval.
     #[cfg_attr(optimized, inline(always))]
     fn within(&self, t: I::V) -> I::V {
         t.max(self.lit.a.t).min(self.lit.b.t)
     }
 
-    /// The cosine `N` at a point; 1 of a spot.
+    /// The cosine `N` at a point; 1 for spots.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn cosine(&self, isa: I, point: &Point<I>) -> I::V {
         I::V::select(self.cosine.has_normal, point.m / point.r, isa.splat(1.0))
     }
 
-    /// The intensity at a point: the cosine `N`, or the falloff `S` of a spot.
+    /// The relative intensity at a point: the cosine `N`, or the falloff `S` of a spot.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn intensity(&self, isa: I, point: &Point<I>) -> I::V {
         let varies = match self.cone {
@@ -544,7 +560,7 @@ impl<I: Isa> Geometry<'_, I> {
 }
 
 impl<I: Isa> Foot<I> {
-    /// One that nothing asks for.
+    /// A placeholder where the foot is not needed.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn none(isa: I) -> Self {
         let zero = isa.splat(0.0);
@@ -552,19 +568,19 @@ impl<I: Isa> Foot<I> {
         Self { h: zero, h_squared: zero, h_squared_low, t_h, t_h_low, a: zero, b: zero, alpha_h: zero }
     }
 
-    /// The distance to the emitter \[m\].
+    /// (2.3): the distance to the emitter \[m\].
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn r(&self, t_prime: I::V) -> I::V {
         self.r_squared(t_prime).sqrt()
     }
 
-    /// Its square.
+    /// `r^2` \[m^2\].
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn r_squared(&self, t_prime: I::V) -> I::V {
         t_prime.mul_add(t_prime, self.h_squared)
     }
 
-    /// `t - t_h` \[m\], rounded, and what the rounding left.
+    /// `t - t_h` \[m\], rounded, and the remainder.
     #[cfg_attr(optimized, inline(always))]
     fn t_prime(&self, t: I::V) -> [I::V; 2] {
         let [difference, left] = two_difference(t, self.t_h);
@@ -585,24 +601,24 @@ impl<I: Isa> Foot<I> {
         self.h_squared.widen() + self.h_squared_low.widen()
     }
 
-    /// The length of the path from `t_min` over the point to the emitter \[m\].
+    /// (1.13): the length of the path from `t_min` over the point to the emitter \[m\].
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn path(&self, isa: I, t_min: I::V, point: &Point<I>) -> I::Double {
         (point.exact_t_prime() - (t_min.widen() - self.exact_t_h())) + self.exact_r(isa, point)
     }
 
-    /// `X = t' + r` and `r` \[m\] in f64: `exp(-mu_t X)` is the transmittance but for a constant.
+    /// (5.7): `X = t' + r`, and `r` \[m\], in f64.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn exact_x_and_r(&self, isa: I, point: &Point<I>) -> (I::Double, I::Double) {
         let (t_prime, r) = (point.exact_t_prime(), self.exact_r(isa, point));
         let long = r + t_prime.max(-t_prime);
         let short = self.exact_h_squared() * reciprocal(isa, long);
-        // r + t' where t' > 0, else h^2/(r - t'): there is no select of doubles.
+        // r + t' where t' > 0, else h^2/(r - t'); f64 lanes have no select.
         let sign = I::V::only(isa.splat(0.0).lt(point.t_prime), isa.splat(1.0)).widen();
         (sign.mul_add(long - short, short), r)
     }
 
-    /// `r` by a Newton step of its root: the exponential multiplies an error of the optical depth by the depth.
+    /// `r` in f64, by a Newton step of the root.
     #[cfg_attr(optimized, inline(always))]
     fn exact_r(&self, isa: I, point: &Point<I>) -> I::Double {
         let (t_prime, r) = (point.t_prime.widen(), point.r.widen());
@@ -620,7 +636,7 @@ impl<I: Isa> Point<I> {
     }
 }
 
-/// `a - b` rounded, and what the rounding left: together exact.
+/// `a - b` rounded, and the remainder: their sum is exact.
 #[cfg_attr(optimized, inline(always))]
 fn two_difference<V: Number>(a: V, b: V) -> [V; 2] {
     let difference = a - b;
@@ -628,7 +644,7 @@ fn two_difference<V: Number>(a: V, b: V) -> [V; 2] {
     [difference, (a - (difference + of_b)) + (of_b - b)]
 }
 
-/// The size of the largest component.
+/// The largest absolute value of a component.
 #[cfg_attr(optimized, inline(always))]
 fn largest<I: Isa>([x, y, z]: [I::V; 3]) -> I::V {
     x.abs().max(y.abs()).max(z.abs())
@@ -639,7 +655,7 @@ fn dot<N: Number>(a: [N; 3], b: [N; 3]) -> N {
     a[2].mul_add(b[2], a[1].mul_add(b[1], a[0] * b[0]))
 }
 
-// Spelt out, as all of the kernels: a closure that is not inlined is a call, and a call costs more than the kernel.
+// No closure in kernels: one that is not inlined is a call, which costs more than the kernel.
 #[cfg_attr(optimized, inline(always))]
 fn widen<I: Isa>([x, y, z]: [I::V; 3]) -> [I::Double; 3] {
     [x.widen(), y.widen(), z.widen()]

@@ -1,4 +1,19 @@
-//! What is integrated: `f = mu_s T rho N / r^2`, without the `1/r^2` that every density shares.
+//! The integrand, times `r^2`: with it `1/r^2` of integrand and density cancel before they overflow.
+//!
+//! Equations of `docs/mathematics.md`, section 1:
+//!
+//! ```text
+//! f r^2 = mu_s T rho N                                                     (1.2)
+//! T = exp(-mu_t (t - t_min + r))                                           (1.3)
+//! rho = (1 - g^2) / (4 pi (1 + g^2 + 2 g sin theta)^(3/2))                 (1.4)
+//! ```
+//!
+//! Departures from this, and why:
+//!
+//! 1. The path `t - t_min + r` is in f64 (1.13): the exponential multiplies its relative error by the optical depth.
+//! 2. The denominator of `rho` is (1.11), `(1 - |g|)^2 + 2 |g| (1 + s)` with `s = sin theta sign g` and `1 + s` by (1.12): nothing
+//!    cancels.
+//! 3. That denominator is at least 1e-24, for `|g|` = 1 alone, where `rho` is 0.
 
 use crate::expansion::Expanded;
 use crate::geometry::{Geometry, Point, RayLanes};
@@ -12,7 +27,7 @@ pub(crate) struct MediumLanes<I: Isa> {
     pub(crate) mu_s: I::V,
     pub(crate) mu_t: I::V,
     pub(crate) g: I::V,
-    // Of the medium alone, and so made once for all rays that have the same.
+    // Computed once for all rays of a medium.
     pub(crate) phase: Expanded<I>,
     pub(crate) lobe: Lobe<I>,
     pub(crate) valid: I::Mask,
@@ -21,13 +36,13 @@ pub(crate) struct MediumLanes<I: Isa> {
 /// The channels of coloured media of a lane group.
 #[derive(Clone, Copy)]
 pub(crate) struct ChannelLanes<I: Isa> {
-    /// Those beyond `count` stand for nothing.
+    /// Values beyond `count` mean nothing.
     pub(crate) mu_t: [I::V; MOST_CHANNELS],
     pub(crate) mu_s: [I::V; MOST_CHANNELS],
     pub(crate) count: usize,
 }
 
-/// The phase function as product densities have it, with `A = 1 + g` and `B = 1 - g`.
+/// The constants of the phase function in (5.12), (6.1): `A^2`, `B^2` and `B/A`, with `A = 1 + g` and `B = 1 - g`.
 #[derive(Clone, Copy)]
 pub(crate) struct Lobe<I: Isa> {
     pub(crate) a2: I::V,
@@ -37,7 +52,7 @@ pub(crate) struct Lobe<I: Isa> {
     pub(crate) height: I::V,
 }
 
-/// The f32 next below 1: the lobe of `|g| = 1` has this shape, as a phase function without width is no density.
+/// The f32 next below 1: the largest `|g|` of a lobe, as a phase function without width is no density.
 const MOST_FORWARD: f32 = 1.0 - f32::EPSILON / 2.0;
 
 impl<I: Isa> Lobe<I> {
@@ -60,34 +75,32 @@ impl<I: Isa> MediumLanes<I> {
     }
 }
 
-/// `mu_s T rho N` \[1/m\]: the integrand times `r^2`, with the falloff `S` of a spot in place of `N`.
+/// (1.2): `mu_s T rho N` \[1/m\], with the falloff `S` of a spot in place of `N`.
 #[cfg_attr(optimized, inline(always))]
 pub(crate) fn integrand_r2<I: Isa>(
     isa: I,
     ray: &RayLanes<I>,
-    g: Geometry<'_, I>,
+    geometry: Geometry<'_, I>,
     medium: &MediumLanes<I>,
     point: &Point<I>,
 ) -> I::V {
-    (medium.mu_s * transmittance(isa, ray, g, medium, point))
-        * (phase(isa, g, medium.g, point) * g.intensity(isa, point))
+    (medium.mu_s * transmittance(isa, ray, geometry, medium, point))
+        * (phase(isa, geometry, medium.g, point) * geometry.intensity(isa, point))
 }
 
-/// From `t_min` over the point to the emitter, (3).
+/// (1.3): the transmittance from `t_min` over the point to the emitter.
 #[cfg_attr(optimized, inline(always))]
 pub(crate) fn transmittance<I: Isa>(
     isa: I,
     ray: &RayLanes<I>,
-    g: Geometry<'_, I>,
+    geometry: Geometry<'_, I>,
     medium: &MediumLanes<I>,
     point: &Point<I>,
 ) -> I::V {
-    exp(isa, -(medium.mu_t.widen() * g.foot.path(isa, ray.t_min, point)))
+    exp(isa, -(medium.mu_t.widen() * geometry.foot.path(isa, ray.t_min, point)))
 }
 
-/// Henyey-Greenstein, (12): `(1 - g^2) / (4 pi (1 + g^2 + 2 g sin theta)^(3/2))` \[1/sr\].
-///
-/// The denominator is `(1 - |g|)^2 + 2 |g| (1 +- sin theta)`, and `1 +- sin theta = (r +- t')/r` without cancellation.
+/// (1.4), by (1.11) and (1.12): the phase function of Henyey and Greenstein \[1/sr\].
 #[cfg_attr(optimized, inline(always))]
 fn phase<I: Isa>(isa: I, geometry: Geometry<'_, I>, g: I::V, point: &Point<I>) -> I::V {
     let c = |x| isa.splat(x);
@@ -95,9 +108,10 @@ fn phase<I: Isa>(isa: I, geometry: Geometry<'_, I>, g: I::V, point: &Point<I>) -
     let size = g.abs();
     let forward = c(0.0).le(g * point.t_prime);
     let long = r + point.t_prime.abs();
+    // (1.12)
     let one_plus_sin = I::V::select(forward, long * long, h * h) / (r * long);
     let away = c(1.0) - size;
-    // The floor matters for |g| = 1 alone, where rho is 0 and h^2/r^2 may leave f32.
+    // (1.11); the floor matters for |g| = 1 alone, where h^2/r^2 may leave f32.
     let d = away.mul_add(away, (size + size) * one_plus_sin).max(c(1e-24));
     (away * (c(1.0) + size)) * c(0.25 * core::f32::consts::FRAC_1_PI) / (d * d.sqrt())
 }

@@ -1,51 +1,52 @@
-//! The geometry in f32.
+//! The geometry of emitters that are no spots, in f32.
+//!
+//! Equations of `docs/mathematics.md`, section 2.3:
 //!
 //! ```text
-//! e = y - o                       q = |d|^2 - 1, and |d| - 1 = q/2 - q^2/8
-//! s = e.d, tau = s - 2 (|d|-1) s  f = tau d - e, the foot of the perpendicular but for rho = f.d along d
-//! t_h = tau + (tau (|d| - 1) - rho)                      h^2 = f.f - rho^2
-//! m(t) = n.(x - y) = beta t - n.e                        beta = n.d / |d|, and n.f - beta rho at the foot
-//! near = t_min - m(t_min)/beta                           t_n = near - m(near)/beta, where N = 0
+//! e = y - o,   q = |d|^2 - 1,   |d| - 1 = q/2 - q^2/8                      (2.10)
+//! s = e.d,   tau = s - 2 (|d| - 1) s,   f = tau d - e,   rho = f.d         (2.11)
+//! t_h = tau + (tau (|d| - 1) - rho),   h^2 = f.f - rho^2                   (2.12)
+//! m(t) = beta t - n.e,   beta = n.d/|d|,   alpha h = n.f - beta rho        (2.13)
+//! near = t_min - m(t_min)/beta,   t_n = near - m(near)/beta, where m = 0   (2.14)
 //! ```
 //!
-//! `rho` takes up what rounding did to `tau`, so that `h` and `t'` are known to 2^-24 of `h`, not of `t_h`, but for the
-//! rounding of `e`. `EXACT` adds
+//! `rho` is what rounding did to `tau`, so that `h` and `t'` have an error of 2^-24 of `h`, not of `t_h`, besides that of the
+//! rounding of `e`.
 //!
-//! - `f` in f64, so that `h` and `t'` are rounded once;
-//! - `q`, `beta` and `m` in f64, and a Newton step from `near` to `t_n`: where N = 0 is known to 2^-48 of the distance,
-//!   to 2^-40 where `|d|` is 1e-5 off.
+//! Departures from f32, and why:
 //!
-//! A lane is hard, and found in f64, where one of these holds; no other lane is asked:
-//!
-//! - `d` or the normal is farther from unit length than 1e-5;
-//! - a number is very large, or none;
-//! - with `EXACT`, an end of the ray is closer to the emitter's plane than 2^-18 of `|e_x| + |e_y| + |e_z|`: the sign of `m`
-//!   is certain elsewhere;
-//! - where the foot is asked for, the line passes the emitter closer than 2^-14 of `t_h`, 1e-6 of `t_min`, or 1e-12 m.
+//! 1. `EXACT` computes `f` in f64: `h` and `t'` are then rounded once.
+//! 2. `EXACT` computes `q`, `beta` and `m` in f64, and the Newton step from `near` to `t_n`: the place of `m` = 0 then has an error
+//!    of 2^-48 of the distance, of 2^-40 where `|d|` is 1e-5 off.
+//! 3. Without `EXACT`, `t_n` is `near`.
+//! 4. A lane is hard, and is computed in f64 (`double`), if one of these holds. No other lane changes this.
+//!    - `d` or the normal is farther from unit length than 1e-5;
+//!    - a number is very large, or NaN;
+//!    - with `EXACT`, an end of the ray is closer to the emitter's plane than 2^-18 of `|e_x| + |e_y| + |e_z|`: elsewhere the
+//!      sign of `m` is certain;
+//!    - where the foot is needed, the line passes the emitter closer than 2^-14 of `t_h`, 1e-6 of `t_min`, or 1e-12 m.
 
 use super::{Cosine, EmitterLanes, End, Foot, Lit, PLAIN, RayLanes, dot, two_difference, widen};
 use crate::simd::{Isa, Lanes, Number};
 
-/// What `m` is without a normal: an end is then never dark.
+/// The `m` of an emitter without a normal: an end is then never dark.
 pub(super) const NO_NORMAL: f32 = 1e30;
-/// The least `h` of an easy lane, as a share of `t_h` and of `t_min`.
+/// The least `h` of an easy lane, as a share of `t_h`, as a share of `t_min`, and in any case \[m\].
 const NEAR: f32 = 1.0 / (1 << 14) as f32;
 const NEAR_OF_T_MIN: f32 = 1e-6;
-/// And in any case \[m\].
 const NEAREST: f32 = 1e-12;
-/// The least `|m|` of a lane that is easy for `EXACT` at the ends of the ray, as a share of the emitter's distance along the
-/// axes. What is lit of it is then longer than anything that counts as none.
+/// The least `|m|` at the ends of the ray of a lane that is easy for `EXACT`, as a share of the emitter's distance along the axes,
+/// and in any case \[m\]. A lit interval is then longer than one that counts as none.
 const EDGE: f32 = 1.0 / (1 << 18) as f32;
-/// And in any case \[m\].
 const EDGE_LEAST: f32 = 1e-17;
 /// The largest `||d|^2 - 1|` of an easy lane.
 pub(super) const UNIT: f32 = 2e-5;
-/// The largest distance of the emitter along the axes of an easy lane \[m\]: for a direction of exactly unit length, and
-/// smaller for others.
+/// The largest distance of the emitter along the axes of an easy lane \[m\], for a direction of exactly unit length; for other
+/// directions it is smaller.
 const WIDEST: f32 = PLAIN * 1e-4;
 
-/// The part of the ray that the emitter faces, with `m` at its ends where the `COSINE` is wanted; and `|d| - 1`, for the
-/// foot. Unless the `FOOT` is wanted, it is the whole ray if any of it is lit.
+/// The lit interval, with `m` at its ends if `COSINE` is set; and `|d| - 1`, for [`find_foot`]. Without `FOOT` it is the whole ray
+/// if any of it is lit.
 #[cfg_attr(optimized, inline(always))]
 pub(crate) fn clip<I: Isa, const EXACT: bool, const FOOT: bool, const COSINE: bool>(
     isa: I,
@@ -57,6 +58,7 @@ pub(crate) fn clip<I: Isa, const EXACT: bool, const FOOT: bool, const COSINE: bo
     let (d, n) = (ray.direction, emitter.normal);
     let (t_min, t_max) = (ray.t_min, ray.end(isa));
 
+    // (2.10)
     let (d_64, n_64) = (widen::<I>(d), widen::<I>(n));
     let q = if EXACT {
         let from_one = d_64[0].mul_add(d_64[0], isa.splat_double(-1.0));
@@ -67,11 +69,12 @@ pub(crate) fn clip<I: Isa, const EXACT: bool, const FOOT: bool, const COSINE: bo
     // |d| - 1, and 1 - 1/|d|.
     let excess = q * q.mul_add(c(-0.125), c(0.5));
     let shrink = (-excess).mul_add(excess, excess);
+    // (2.13)
     let beta_64 = dot(n_64, d_64);
     let n_d = if EXACT { I::V::narrow(beta_64) } else { dot(n, d) };
     let beta_low = -(n_d * shrink);
     let beta = n_d + beta_low;
-    // -n.e, or without a normal more than anything.
+    // -n.e; without a normal larger than any m.
     let (o, y) = (ray.origin, emitter.position);
     let (o_64, y_64) = (widen::<I>(o), widen::<I>(y));
     let m_0_64 = (o_64[2] - y_64[2]).mul_add(
@@ -99,13 +102,14 @@ pub(crate) fn clip<I: Isa, const EXACT: bool, const FOOT: bool, const COSINE: bo
         return (lit, excess, Cosine::none(isa));
     }
 
+    // (2.14)
     let inv_beta = c(1.0) / beta;
     let near = (-m_min).mul_add(inv_beta, t_min);
     let near = if EXACT { near } else { near.max(t_min).min(t_max) };
     let dark = dark_a | dark_b;
     let (mut m_least, mut t_n, mut t_n_low) = (m_min.min(m_max), near, zero);
     if EXACT {
-        // Where m is smaller, or where it is 0.
+        // At m = 0, or at the end where m is smaller.
         let mut at = near;
         if COSINE {
             at = I::V::select(dark, near, I::V::select(zero.le(beta), t_min, t_max));
@@ -123,7 +127,7 @@ pub(crate) fn clip<I: Isa, const EXACT: bool, const FOOT: bool, const COSINE: bo
     (lit, excess, cosine)
 }
 
-/// The foot of the perpendicular, with `alpha_h` where the `COSINE` is wanted, and which lanes are easy.
+/// The foot of the perpendicular, with `alpha_h` if `COSINE` is set, and which lanes are easy.
 #[cfg_attr(optimized, inline(always))]
 pub(crate) fn find_foot<I: Isa, const EXACT: bool, const COSINE: bool>(
     isa: I,
@@ -138,10 +142,11 @@ pub(crate) fn find_foot<I: Isa, const EXACT: bool, const COSINE: bool>(
     let (d, t_min) = (ray.direction, ray.t_min);
     let Lit { a, b, valid, .. } = *lit;
 
+    // (2.11)
     let (o, y, n) = (ray.origin, emitter.position, emitter.normal);
     let s = dot([y[0] - o[0], y[1] - o[1], y[2] - o[2]], d);
     let tau = (-excess).mul_add(s + s, s);
-    // And n.f.
+    // m_f = n.f
     let (rho, h_squared, h_squared_low, m_f);
     if EXACT {
         let (o, d, y, n, tau) = (widen::<I>(o), widen::<I>(d), widen::<I>(y), widen::<I>(n), tau.widen());
@@ -156,6 +161,7 @@ pub(crate) fn find_foot<I: Isa, const EXACT: bool, const COSINE: bool>(
         rho = dot(f, d);
         (h_squared, h_squared_low, m_f) = ((-rho).mul_add(rho, dot(f, f)), zero, dot(n, f));
     }
+    // (2.12): t_h = tau + tau_low
     let tau_low = tau.mul_add(excess, -rho);
     let ([from_a, left_a], [from_b, left_b]) = (two_difference(a.t, tau), two_difference(b.t, tau));
     let (t_prime_a, t_prime_b) = if EXACT {
@@ -163,6 +169,7 @@ pub(crate) fn find_foot<I: Isa, const EXACT: bool, const COSINE: bool>(
     } else {
         (from_a - tau_low, from_b - tau_low)
     };
+    // (2.13)
     let alpha_h = if COSINE { I::V::only(cosine.has_normal, (-rho).mul_add(cosine.beta, m_f)) } else { zero };
 
     let h = h_squared.sqrt();

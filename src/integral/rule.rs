@@ -1,18 +1,26 @@
 //! Gauss and Legendre's rule in a variable in which the integrand is nearly a polynomial.
 //!
-//! The variable is that of the product densities, with a map of its own. With `X = t' + r` and `Y = X - X_a`,
+//! Equations of `docs/mathematics.md`, section 7; `X`, `Y`, `A`, `B`, `m` are those of section 5:
 //!
 //! ```text
-//! Y = Y_c v/(e + 1 - v)                    e = Y_c/Y_b
-//! 1/Y_c = 0.09 mu_t + 1/(2.6 X_a + 0.9 h B/A)
-//! v = s + d s (1 - s)                      1/d = 1 + 28 mu_t Y_c + 19 e
+//! 1/Y_c = 0.09 mu_t + 1/(2.6 X_a + 0.9 h B/A),   e = Y_c/Y_b                         (7.1)
+//! v = z + d z (1 - z),   1/d = 1 + 28 mu_t Y_c + 19 e                                (7.2)
+//! Y = Y_c v/(e + 1 - v)                                                              (6.3)
+//! L = mu_s exp(-mu_t (t_a - t_min + r_a)) (1 - g^2)/(4 pi)
+//!     Sum_k w_k (1 + d (1 - 2 z_k)) exp(-mu_t Y) F(X) Y_c (1 + e)/(e + 1 - v)^2      (7.3)
+//! F: 4 m X (X^2 + h^2)^(-1/2) (A^2 X^2 + B^2 h^2)^(-3/2), by (6.9), (6.10)           (5.12)
+//!    2 (X^2 + h^2)^(1/2) (A^2 X^2 + B^2 h^2)^(-3/2)  without a normal                (5.13)
 //! ```
 //!
-//! and `s` in `[0, 1]` has the nodes. In a thin medium a long ray ends where the transmittance does, within the last
-//! `mu_t Y_c` of `v`: the second map, which is straight elsewhere, draws the last nodes to the end. In all of it sums have
-//! positive terms alone, so that nothing cancels.
+//! In a thin medium a long ray ends where the transmittance does, within the last `mu_t Y_c` of `v`: (7.2) moves the last nodes
+//! towards the end, and is straight elsewhere. All terms are positive, so that nothing cancels. The constants are those with the
+//! least errors over the sets `generic`, `dense` and `broad` of `airlight integral`.
 //!
-//! The constants are those with the least errors over the sets `generic`, `dense` and `broad` of `airlight integral`.
+//! Departures from this, and why:
+//!
+//! 1. `share = (e + 1 - v)/(1 + e)` stands for `e + 1 - v`, and `w_0 = 1/(1 + e)`, `s_b = e/(1 + e)`: finite for `e` of any size.
+//! 2. Lengths are in units of the largest of `h`, `X_a`, `Y_c`: no power of them leaves f32.
+//! 3. `Y_c` is at least 1e-18 m, and the sum at most `f32::MAX`.
 
 use crate::geometry::{Geometry, RayLanes};
 use crate::integrand::{Lobe, MediumLanes, transmittance};
@@ -20,17 +28,17 @@ use crate::simd::math::one_minus_exp;
 use crate::simd::{Isa, Lanes, Number};
 use crate::strategy::product::along_v::{AlongV, At, ConeAlongV, Units, x_and_h_over_it};
 
-/// What `1/Y_c` has of `mu_t`, and `Y_c` of `X_a` and of `h B/A`.
+/// The factors of `mu_t`, `X_a` and `h B/A` in (7.1).
 const OF_MU_T: f32 = 0.09;
 const OF_X_A: f32 = 2.6;
 const OF_LOBE: f32 = 0.9;
-/// What `1/d` has of `mu_t Y_c`, and of `e`.
+/// The factors of `mu_t Y_c` and of `e` in (7.2).
 const OF_DEPTH: f32 = 28.0;
 const OF_E: f32 = 19.0;
-/// No length is resolved below this \[m\].
+/// The least `Y_c` \[m\].
 const SHORTEST: f32 = 1e-18;
 
-/// Nodes below 1/2 and their weights, on \[0, 1\].
+/// The nodes below 1/2 on \[0, 1\], and their weights.
 const FOUR: [[f64; 2]; 2] =
     [[0.069_431_844_202_973_71, 0.173_927_422_568_726_93], [0.330_009_478_207_571_87, 0.326_072_577_431_273_07]];
 const SIX: [[f64; 2]; 3] = [
@@ -53,13 +61,16 @@ const TWELVE: [[f64; 2]; 6] = [
     [0.437_383_295_744_265_54, 0.124_573_522_906_701_39],
 ];
 
-/// A node `s`.
+/// A node and its weight.
 #[derive(Clone, Copy)]
 struct Node {
+    /// `z_k`
     s: f32,
+    /// `1 - z_k`
     to_1: f32,
+    /// `w_k`
     weight: f32,
-    /// The weight times `1 - 2 s`, by which it grows with `d`: `dv/ds = 1 + d (1 - 2 s)`.
+    /// `w_k (1 - 2 z_k)`: `dv/dz = 1 + d (1 - 2 z)`.
     slope: f32,
 }
 
@@ -92,10 +103,7 @@ impl<const K: usize> Rule<K> {
         nodes
     };
 
-    /// The integral of the integrand over the lit part of the ray \[1/m^2\].
-    ///
-    /// With `P`, `Q` in place of `h`, `X` in a scale of their own, `A = 1 + g`, `B = 1 - g` and `m = N r`,
-    /// `T rho N dt / r^2` is proportional to `E m Q (P^2 + Q^2)^(-1/2) (A^2 Q^2 + B^2 P^2)^(-3/2) dv`.
+    /// (7.3): the integral of the integrand over the lit part of the ray \[1/m^2\].
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn radiance<I: Isa>(
         isa: I,
@@ -107,6 +115,7 @@ impl<const K: usize> Rule<K> {
         let (g, h, one) = (geometry, geometry.foot.h, c(1.0));
         let Lobe { a2, b2, b_over_a, height } = medium.lobe;
 
+        // X at the ends (5.7), Y_b (5.8), Y_c (7.1).
         let [r_a, r_b] = [g.foot.r(g.foot.a), g.foot.r(g.foot.b)];
         let inv_h = one / h;
         let (x_a, h_x_a) = x_and_h_over_it(isa, h, inv_h, g.foot.a, r_a);
@@ -115,44 +124,48 @@ impl<const K: usize> Rule<K> {
         let reach = x_a.mul_add(c(OF_X_A), c(OF_LOBE) * h * b_over_a);
         let y_c = (one / medium.mu_t.mul_add(c(OF_MU_T), one / reach)).max(c(SHORTEST));
         let depth = medium.mu_t * y_c;
-        // 1/(1 + e) and e/(1 + e).
+        // 1/(1 + e), e/(1 + e), and d (7.2).
         let inv_sum = one / (y_b + y_c);
         let (w_0, s_b) = (y_b * inv_sum, y_c * inv_sum);
         let d = w_0 / w_0.mul_add(depth.mul_add(c(OF_DEPTH), one), s_b * c(OF_E));
 
-        // Lengths in units of the largest: no power of them leaves f32.
+        // h, X_a and Y_c over the largest of them.
         let inv_size = one / h.max(x_a).max(y_c);
-        let (h_c, x_c, y_c_c) = (h * inv_size, x_a * inv_size, y_c * inv_size);
-        let units = Units { of_v: w_0 * y_c_c, of_to_1: y_b * inv_size, h_x_a, h_x_b };
+        let (h_unit, x_unit, y_c_unit) = (h * inv_size, x_a * inv_size, y_c * inv_size);
+        let units = Units { of_v: w_0 * y_c_unit, of_to_1: y_b * inv_size, h_x_a, h_x_b };
         let m_along = AlongV::new(isa, &g.cosine.ramp(isa), g.cosine.m_least * inv_size, &units);
         let cone = ConeAlongV::new(isa, g, inv_size, one, &units);
 
         let mut sum = c(0.0);
         let mut k = 0;
         while k < K {
+            // (7.2), and w_k (1 + d (1 - 2 z_k))
             let node = Self::NODES[k];
             let v = d.mul_add(c(node.s * node.to_1), c(node.s));
             let to_1 = c(node.to_1) * d.mul_add(c(-node.s), one);
             let weight = d.mul_add(c(node.slope), c(node.weight));
-            // Y/Y_c = w/s.
-            let (w, s) = (w_0 * v, w_0.mul_add(to_1, s_b));
-            let (_, transmittance) = one_minus_exp(isa, depth * (w / s));
+            // Y/Y_c = w/share (6.3)
+            let (w, share) = (w_0 * v, w_0.mul_add(to_1, s_b));
+            let (_, transmittance) = one_minus_exp(isa, depth * (w / share));
 
-            let p = h_c * s;
-            let q = x_c.mul_add(s, y_c_c * w);
-            let at = At { v, to_1, scale: s, p, q };
+            // P, Q, m X s^2 (6.9) over (1 + e), (1 + e), (1 + e)^2; P^2 + Q^2 and A^2 Q^2 + B^2 P^2.
+            let p = h_unit * share;
+            let q = x_unit.mul_add(share, y_c_unit * w);
+            let at = At { v, to_1, scale: share, p, q };
             let m = m_along.at(&at);
             let p2 = p * p;
-            let s_1 = q.mul_add(q, p2);
-            let s_2 = (a2 * q).mul_add(q, b2 * p2);
-            let mut numerator = I::V::select(g.cosine.has_normal, m, s_1);
+            let squares = q.mul_add(q, p2);
+            let lobe = (a2 * q).mul_add(q, b2 * p2);
+            let mut numerator = I::V::select(g.cosine.has_normal, m, squares);
             if let Some(cone) = &cone {
-                numerator = numerator * cone.at(isa, &at, m, s_1);
+                numerator = numerator * cone.at(isa, &at, m, squares);
             }
-            sum = (weight * transmittance).mul_add(numerator / (s_2 * (s_1 * s_2).sqrt()), sum);
+            // (6.10)
+            sum = (weight * transmittance).mul_add(numerator / (lobe * (squares * lobe).sqrt()), sum);
             k += 1;
         }
-        let unit = inv_size * (w_0 * y_c_c) * I::V::select(g.cosine.has_normal, c(4.0), c(2.0));
+        // The units, Y_c/(1 + e), and the 4 of (5.12) or the 2 of (5.13).
+        let unit = inv_size * (w_0 * y_c_unit) * I::V::select(g.cosine.has_normal, c(4.0), c(2.0));
         let mass = (sum * unit).min(c(f32::MAX));
         let start = transmittance(isa, ray, g, medium, &g.start(isa, r_a));
         (medium.mu_s * start) * (height * mass)

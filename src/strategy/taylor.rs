@@ -25,8 +25,8 @@
 //!    input.
 //! 2. The integral is that of the polynomial `P N` about the middle of the piece, not the closed form (22), which cancels
 //!    catastrophically on short intervals. `oracle::paper` has (22).
-//! 3. The inverse starts from the line through the density at -1, 0 and 1 and two Newton steps on a quintic, not from a
-//!    bisection. The pdf is that at the angle returned, so that a residual is no bias.
+//! 3. The inverse starts from the line through the density at -1, 0 and 1 and two Newton steps on a quintic, so that few steps
+//!    are left. The pdf is that at the angle returned: a residual of the iteration is no bias.
 //! 4. `P` and `theta` are in f64 where a density is evaluated: the logarithms of the polynomials have slopes up to 30.
 
 use super::point_normal::{NEAREST, mass_of_cosine, tan_half_at_mass};
@@ -127,7 +127,7 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
         let middle = theta_a + half.widen();
 
         // N and S at the middle of the first piece and at its end. N is concave and so at least half as large at the middle as at
-        // the start: the difference cancels one bit at most.
+        // the start: little cancels.
         let (sin, cos) = sin_cos(isa, half);
         let (n_m, s_m) = (n_a.mul_add(cos, -(s_a * sin)), n_a.mul_add(sin, s_a * cos));
         let (n_c, s_c) = (n_m.mul_add(cos, -(s_m * sin)), n_m.mul_add(sin, s_m * cos));
@@ -140,7 +140,7 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
         // P N (4.6) and its antiderivative.
         let product = I::V::multiply(&shift::<I>(p, middle, half), &cosine_series(isa, n_m, slope_m, wave));
         let integral = integrate(isa, &product);
-        // At x = 1 the integral is the sum of the even and the odd terms, at x = -1 their difference.
+        // The antiderivative, x times `integral`, is the sum of the even and the odd terms at 1, and odd less even at -1.
         let integrals = halves_at_1(&integral);
         let below = integrals[1] - integrals[0];
         let scale = integrals[0] + integrals[0];
