@@ -1,25 +1,26 @@
-//! What a malformed call returns.
+//! The errors of malformed calls.
 
 use crate::Strategy;
 use std::fmt;
 
-/// Why a call was refused. Nothing was written to any output.
+/// The reason why a call was refused. No output was written.
 ///
-/// Only the *call* can be malformed: lengths that differ, a table without entries, a parameter that holds for the whole batch
-/// and is out of range, or something that there is not. A single bad ray is not an error: it gets pdf 0 and weight 0 and is counted in [`Counts`](crate::Counts).
+/// Only a *call* can be malformed: by columns of different lengths, a table without entries, a parameter of the whole batch that is
+/// out of range, or a feature that does not exist. A single bad ray is no error: it gets pdf 0 and weight 0, and is counted in
+/// [`Counts`](crate::Counts).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Error {
-    /// Media, or the columns that are written for them, have another number of channels than the rest of the call.
+    /// Media of a table, or output columns, have another number of channels than the other media of the call.
     #[non_exhaustive]
     Channels {
         /// The table or the columns, such as `samples.weights`.
         field: &'static str,
-        /// Which entry of the table.
+        /// The entry of the table; `None` for columns.
         index: Option<usize>,
-        /// How many it has.
+        /// The number of its channels.
         channels: usize,
-        /// How many the media have.
+        /// The number of channels of the media.
         expected: usize,
     },
     /// A table has no entry.
@@ -31,20 +32,20 @@ pub enum Error {
     /// A column has another length than the rest of the batch.
     #[non_exhaustive]
     Length {
-        /// The column, as it is named in the call, such as `rays.t_max`.
+        /// The column, such as `rays.t_max`.
         field: &'static str,
         /// Its length.
         length: usize,
-        /// The length of the batch, which is that of `rays.origin[0]` (or a multiple of it, for `u` and `t`), or that of
-        /// what was given for it.
+        /// The length of the batch, which is that of `rays.origin[0]` (`u` and `t` may have a multiple of it); for an output, the
+        /// length of `u` or `t`.
         expected: usize,
     },
-    /// There is no such thing.
+    /// The call asks for a feature that does not exist.
     #[non_exhaustive]
     Unavailable {
-        /// What was asked for, such as `fast precision`.
+        /// The feature, such as `fast precision`.
         field: &'static str,
-        /// The strategy that does not have it; `None` if none has.
+        /// The strategy that does not have it; `None` if no strategy has it.
         strategy: Option<Strategy>,
     },
     /// A parameter is out of its range.

@@ -1,15 +1,15 @@
 //! The pages of `docs/`. Their examples are tests, and their links are checked with the documentation.
 //!
-//! - [`choosing`]: which strategy, precision, number of nodes, variates; when no sample at all.
-//! - [`embedding`]: how to call airlight, and what the renderer does itself.
+//! - [`choosing`]: which strategy, precision, number of nodes and variates to take, and when no sample is needed.
+//! - [`embedding`]: how to call airlight, and what is left to the renderer.
 //! - [`accuracy`]: errors, bounds, and the inputs they hold on.
 //! - [`speed`]: times, instruction sets, peers.
-//! - [`mathematics`]: the derivation, equation by equation, with the source files.
-//! - [`testing`]: what is promised, and which test holds it.
+//! - [`mathematics`]: the derivation, equation by equation, with the source file of each.
+//! - [`testing`]: the promises, and the test of each.
 //! - [`command`]: the command line.
 
-// Markdown takes the first definition of a link: `links.md` has the items of the documentation, and the end of each page the
-// files for who reads it in the repository.
+// Markdown takes the first definition of a link. `links.md` links to items of the documentation; the definitions at the end of each
+// page link to files, for readers of the repository.
 
 #[doc = include_str!("guide/links.md")]
 #[doc = include_str!("../docs/choosing.md")]

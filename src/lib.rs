@@ -1,25 +1,25 @@
 #![doc = include_str!("guide/links.md")]
 #![doc = include_str!("../README.md")]
 //!
-//! # The road
+//! # Modules
 //!
-//! Every ray takes it once, in blocks of a few lane groups that go from station to station, and nothing flows back:
+//! Data flows one way, in blocks of a few lane groups of rays:
 //!
 //! `scene -> geometry -> density -> inversion -> samples`
 //!
-//! | station | what it is |
+//! | module | content |
 //! |---|---|
-//! | `scene` | [`Ray`], [`Emitter`] with the [`Cone`] of a spot, [`Medium`]: one of each, validated |
-//! | `batch` | [`Rays`], [`Emitters`], [`Media`], [`Samples`]: borrowed columns of many |
-//! | `geometry` | `h`, `t_h`, the lit interval and its ends, without cancellation: in f32, where that is not enough in f64 |
+//! | `scene` | [`Ray`], [`Emitter`] with the [`Cone`] of a spot, [`Medium`]: single ones, validated |
+//! | `batch` | [`Rays`], [`Emitters`], [`Media`], [`Samples`]: borrowed columns of a batch |
+//! | `geometry` | `h`, `t_h`, the lit interval and its ends, without cancellation: in f32, and in f64 where that is not enough |
 //! | `expansion` | a factor of the integrand as a polynomial of the angle |
-//! | `strategy` | one file per density: its set-up, its draw, its pdf, its CDF |
-//! | `inversion` | Chebyshev's method in a bracket |
+//! | `strategy` | one file per density: set-up, sample, pdf, CDF |
+//! | `inversion` | the root of a CDF, by Chebyshev's method in a bracket |
 //! | `integrand` | `mu_s T rho N` for the weight |
 //! | `integral` | the radiance of a ray without a sample, by Gauss and Legendre's rule |
-//! | `road` | threads, chunks, blocks, and the passes over a block |
-//! | `simd` | lane groups, one binding per instruction set |
-//! | [`oracle`] | all of it again in f64, written plainly, as the truth for tests |
+//! | `road` | from a call to its kernels: threads, chunks, blocks, and the passes over a block |
+//! | `simd` | lane groups and elementary functions, one binding per instruction set |
+//! | [`oracle`] | the same quantities in f64, written plainly: the reference of the tests |
 //!
 //! # Quantities
 //!
@@ -29,7 +29,7 @@
 //! | `mu_a`, `mu_s`, `mu_t` | absorption, scattering and extinction coefficient | 1/m |
 //! | `g` | mean cosine of Henyey-Greenstein; `g > 0` scatters forward | 1 |
 //! | `h` | distance from the emitter to the line of the ray | m |
-//! | `t_h` | where the ray passes the emitter | m |
+//! | `t_h` | distance along the ray of the point nearest to the emitter | m |
 //! | `r` | distance from `x(t)` to the emitter | m |
 //! | `theta` | `atan((t - t_h)/h)`, the angle at the emitter | rad |
 //! | `T` | transmittance from `t_min` over `x(t)` to the emitter | 1 |
@@ -40,7 +40,8 @@
 //! | weight | `mu_s T rho N / (r^2 pdf)` | 1/m^2 |
 //!
 //! The single-scattered radiance of a ray, per unit of the emitter's intensity, is the integral of the integrand
-//! `mu_s T rho N / r^2` over `t`, and the mean of the weights. Without occluders no sample is needed: [`Integral`] has it.
+//! `mu_s T rho N / r^2` over `t`, which is the mean of the weights. Without occluders no sample is needed: [`Integral`] computes
+//! it. [`guide::mathematics`] has all equations, and the names that the source gives to their terms.
 //!
 //! # Noise-free fog lights
 //!
@@ -64,10 +65,10 @@
 //! # }
 //! ```
 //!
-//! [`Integral::radiance`] does the same for the rays of a picture at once. With occluders, take the integral times the share
-//! of the light that is visible: the sum of the weights of the visible samples over that of all.
+//! [`Integral::radiance`] does the same for a batch of rays. With occluders, multiply the integral by the visible share of the
+//! light: the sum of the weights of the visible samples over that of all samples.
 //!
-//! Which strategy to take: see [`Strategy`].
+//! [`Strategy`] and [`guide::choosing`] say which strategy to take.
 //!
 //! # Equations of the paper
 //!
@@ -82,7 +83,8 @@
 //! | (13)-(20) Taylor expansion of the phase function | `strategy/taylor_phase`; [`oracle::paper`] |
 //! | (22)-(30) the integral of polynomial times cosine | [`oracle::paper`]; `strategy/taylor` has a form that does not cancel |
 //!
-//! The product densities (`strategy/product`) and the rule of the integral (`integral/rule`) are our own derivation.
+//! The product densities (`strategy/product`) and the rule of the integral (`integral/rule`) are derived in
+//! [`guide::mathematics`].
 //!
 //! # What may grow
 //!
@@ -119,15 +121,15 @@
 //! }
 //! ```
 //!
-//! Positions and directions are taken as `impl Into<[f32; 3]>` and given as `[f32; 3]`: the `Vec3` of any version of glam
-//! converts into that, and none is part of the promise. What the feature `measure` adds is none either.
+//! Functions take positions and directions as `impl Into<[f32; 3]>`, into which the `Vec3` of any version of glam converts, and
+//! return them as `[f32; 3]`: no version of glam is part of the public interface. Nor are the items of the feature `measure`.
 //!
 //! # Reproducibility
 //!
-//! Equal inputs give equal bits, whatever the number of threads, the length of the batch or the place in it. Between
-//! machines this holds where the instruction sets round alike: x86-64 with fused multiply-add and AArch64 give equal bits
-//! ([`Backend::is_fused`]), and those without it among themselves. All of it is said of
-//! the default [floating-point environment](Sampler#floating-point-environment), which flushes nothing to zero.
+//! Equal inputs give equal bits, whatever the number of threads, the length of the batch or the place in it. This also holds
+//! between machines whose instruction sets round alike: x86-64 with fused multiply-add and AArch64 give equal bits
+//! ([`Backend::is_fused`]), and so do those without it among themselves. It holds in the default
+//! [floating-point environment](Sampler#floating-point-environment), which does not flush subnormal numbers to zero.
 
 mod batch;
 mod density;

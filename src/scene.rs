@@ -1,4 +1,4 @@
-//! One ray, one emitter, one medium: what a single-scattering integral is made of.
+//! A single ray, emitter and medium, validated.
 
 mod colour;
 mod cone;
@@ -12,7 +12,7 @@ use glam::Vec3;
 /// Largest coordinate or distance that is resolved \[m\]. A finite or infinite `t_max` beyond it means this distance.
 pub const FARTHEST: f32 = 1e18;
 
-/// How far from 1 the length of a direction or a normal may be.
+/// The largest difference from 1 of the length of a direction, a normal or an axis.
 pub const UNIT_TOLERANCE: f32 = 1e-3;
 
 /// The part `[t_min, t_max]` of the ray `x(t) = origin + t direction` that lies in the medium.
@@ -31,8 +31,8 @@ impl Ray {
     ///
     /// # Errors
     /// [`Error::Value`] unless the coordinates of `origin` are at most [`FARTHEST`] in size, `direction` has length 1
-    /// within [`UNIT_TOLERANCE`] (its exact length does not matter: distances are in metres all the same) and
-    /// `0 <= t_min <= t_max`, `t_min <= FARTHEST`.
+    /// within [`UNIT_TOLERANCE`], `0 <= t_min <= t_max` and `t_min <= FARTHEST`. Distances are in metres whatever the exact length
+    /// of `direction`.
     pub fn new(
         origin: impl Into<[f32; 3]>,
         direction: impl Into<[f32; 3]>,
@@ -47,34 +47,33 @@ impl Ray {
         Ok(Self { origin, direction, t_min, t_max })
     }
 
-    /// Where the ray starts \[m\].
+    /// The origin \[m\].
     #[must_use]
     pub fn origin(&self) -> [f32; 3] {
         self.origin
     }
-    /// Where it goes, of unit length.
+    /// The direction, of unit length.
     #[must_use]
     pub fn direction(&self) -> [f32; 3] {
         self.direction
     }
-    /// Where it enters the medium \[m\].
+    /// The distance at which the ray enters the medium \[m\].
     #[must_use]
     pub fn t_min(&self) -> f32 {
         self.t_min
     }
-    /// Where it leaves the medium \[m\].
+    /// The distance at which the ray leaves the medium \[m\].
     #[must_use]
     pub fn t_max(&self) -> f32 {
         self.t_max
     }
 }
 
-/// A point that lights the medium: alike in all directions, as a piece of a surface with a normal (a point-normal emitter),
+/// A point that lights the medium: equally in all directions, as a piece of a surface with a normal (a point-normal emitter),
 /// or into a cone (a spot).
 ///
-/// With a normal the emitted radiant intensity is proportional to the cosine `N = max(0, normal.(x - position)/r)`;
-/// without one `N = 1`. That of a spot is proportional to the falloff of its [`Cone`]. Radiance, area and power are factors
-/// of the caller.
+/// The radiant intensity is proportional to the cosine `N = max(0, normal.(x - position)/r)` with a normal, to the falloff of the
+/// [`Cone`] for a spot, and constant otherwise. Radiance, area and power are factors of the caller.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Emitter {
     position: [f32; 3],
@@ -83,7 +82,7 @@ pub struct Emitter {
 }
 
 impl Emitter {
-    /// An emitter that shines alike in all directions.
+    /// An emitter that shines equally in all directions.
     ///
     /// # Errors
     /// [`Error::Value`] if a coordinate is NaN or larger than [`FARTHEST`] in size.
@@ -93,8 +92,8 @@ impl Emitter {
         Ok(Self { position, normal: None, cone: None })
     }
 
-    /// A point of a surface with the unit normal `normal`; it shines to the side of its normal alone. Within the
-    /// tolerance its length scales the cosine, and with it the weights.
+    /// A point of a surface with the unit normal `normal`, which shines to the side of the normal only. The length of the normal
+    /// scales the cosine, and so the weights.
     ///
     /// # Errors
     /// [`Error::Value`] if a coordinate is NaN or larger than [`FARTHEST`] in size, or if the length of the normal is
@@ -106,11 +105,13 @@ impl Emitter {
         Ok(Self { position, normal: Some(normal), cone: None })
     }
 
-    /// A point that shines into the [`Cone`] around the unit vector `axis`, in full up to the angle whose cosine is
-    /// `cos_inner`, not at all beyond that of `cos_outer`, and smoothly in between. [There](Cone) stands how the spots of
-    /// Blender, glTF and pbrt are given this way.
+    /// A point that shines into the [`Cone`] around the unit vector `axis`: in full up to the angle whose cosine is
+    /// `cos_inner`, not at all beyond the angle whose cosine is `cos_outer`, and with a smooth falloff between. The page of [`Cone`]
+    /// converts the parameters of Blender, glTF and pbrt.
     ///
-    /// The [oracle](crate::oracle) has spots; the kernels do not yet, and calls with one return [`Error::Unavailable`].
+    /// `Strategy::Transmittance` samples the whole ray, every other density the part inside the outer cone. Weights,
+    /// [`evaluate`](crate::Sampler::evaluate) and [`radiance`](crate::Integral::radiance) include the falloff; of the densities only
+    /// the product densities follow it.
     ///
     /// # Errors
     /// [`Error::Value`] if a coordinate is NaN or larger than [`FARTHEST`] in size, if the length of the axis is not 1
@@ -126,29 +127,27 @@ impl Emitter {
         Ok(Self { position, normal: None, cone: Some(Cone::new(axis.into(), cos_outer, cos_inner)?) })
     }
 
-    /// Where it is \[m\].
+    /// The position \[m\].
     #[must_use]
     pub fn position(&self) -> [f32; 3] {
         self.position
     }
-    /// Its unit normal, if it has one.
+    /// The unit normal, if the emitter has one.
     #[must_use]
     pub fn normal(&self) -> Option<[f32; 3]> {
         self.normal
     }
-    /// Its cone, if it is a spot.
+    /// The cone, if the emitter is a spot.
     #[must_use]
     pub fn cone(&self) -> Option<Cone> {
         self.cone
     }
 }
 
-/// A homogeneous medium with the Henyey-Greenstein phase function: grey, or with coefficients of its own for each channel of
-/// a colour.
+/// A homogeneous medium with the Henyey-Greenstein phase function: grey, or coloured, with coefficients for each channel.
 ///
-/// `mu_a`, `mu_s` and `mu_t` of a coloured medium are those of the grey one that its densities are made for: the means over
-/// the channels that scatter. So a channel that does not scatter changes nothing for the others. If none scatters they are
-/// the means over all.
+/// `mu_a`, `mu_s` and `mu_t` of a coloured medium are the means over the channels that scatter, or over all channels if none
+/// scatters. A channel that does not scatter changes nothing for the others.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Medium {
     mu_a: f32,
@@ -158,7 +157,7 @@ pub struct Medium {
 }
 
 impl Medium {
-    /// Absorption coefficient `mu_a` and scattering coefficient `mu_s` \[1/m\], mean cosine `g` \[1\].
+    /// A grey medium: absorption coefficient `mu_a` and scattering coefficient `mu_s` \[1/m\], mean cosine `g` \[1\].
     ///
     /// `g > 0` scatters forward: light from an emitter behind the air reaches the eye.
     ///
@@ -175,16 +174,17 @@ impl Medium {
         Ok(Self { mu_a, mu_s, g, colour: None })
     }
 
-    /// A medium of 1, 3 or 4 channels, with `mu_a` and `mu_s` \[1/m\] of each and one mean cosine `g` \[1\]. Of one channel
-    /// it is that of [`new`](Self::new).
+    /// A medium of 1, 3 or 4 channels, with `mu_a` and `mu_s` \[1/m\] of each and one mean cosine `g` \[1\]. With one channel
+    /// it is the medium of [`new`](Self::new).
     ///
     /// All channels share the distances of the samples. The densities [`Product5`](crate::Strategy::Product5) and
-    /// [`Product9`](crate::Strategy::Product9) are the means of those that the channels that scatter have, so that each of them is
-    /// sampled well; the other densities are those of the mean medium. Weights, integrands and radiances are per channel.
+    /// [`Product9`](crate::Strategy::Product9) are the means of the densities of the channels that scatter, so that each channel is
+    /// sampled well; the other densities are those of the [mean medium](Self::mean). Weights, integrands and radiances are per
+    /// channel.
     ///
     /// # Errors
-    /// [`Error::Value`] if there are not 1, 3 or 4 channels, or where `new` has it, for any channel; also unless the means
-    /// of `mu_a` and `mu_s` have a finite sum.
+    /// [`Error::Value`] unless there are 1, 3 or 4 channels, the values of each are valid for [`new`](Self::new), and the means of
+    /// `mu_a` and `mu_s` have a finite sum.
     pub fn coloured<const C: usize>(mu_a: [f32; C], mu_s: [f32; C], g: f32) -> Result<Self, Error> {
         Error::unless(matches!(C, 1 | 3 | 4), "channels", C as f32, "1, 3 or 4")?;
         for (mu_a, mu_s) in mu_a.into_iter().zip(mu_s) {
@@ -196,17 +196,17 @@ impl Medium {
         Ok(Self { colour: (C > 1).then_some(colour), ..grey })
     }
 
-    /// `mu_a` and `mu_s` of all channels, of a grey medium the same in each.
+    /// `mu_a` and `mu_s` of all channels; of a grey medium they are equal in each.
     pub(crate) fn coefficients(&self) -> ([f32; MOST_CHANNELS], [f32; MOST_CHANNELS]) {
         self.colour.map_or(([self.mu_a; MOST_CHANNELS], [self.mu_s; MOST_CHANNELS]), |colour| colour.coefficients())
     }
 
-    /// How many channels it has; 1 if it is grey.
+    /// The number of channels; 1 if the medium is grey.
     #[must_use]
     pub fn channels(&self) -> usize {
         self.colour.map_or(1, |colour| colour.count())
     }
-    /// The grey medium of channel `c`, if there is one: itself for `c = 0` if it is grey.
+    /// The grey medium of channel `c`, if the channel exists. Channel 0 of a grey medium is the medium itself.
     #[must_use]
     pub fn channel(&self, c: usize) -> Option<Self> {
         match &self.colour {
@@ -214,7 +214,8 @@ impl Medium {
             Some(colour) => colour.channel(c).map(|(mu_a, mu_s)| Self { mu_a, mu_s, g: self.g, colour: None }),
         }
     }
-    /// The grey medium whose coefficients are the means over the channels that scatter; itself if it is grey.
+    /// The grey medium whose coefficients are the means over the channels that scatter, or over all if none does. The mean of a grey
+    /// medium is the medium itself.
     #[must_use]
     pub fn mean(&self) -> Self {
         Self { colour: None, ..*self }

@@ -1,40 +1,40 @@
-//! On how many threads a call runs.
+//! The threads of a call.
 
 use core::num::NonZeroUsize;
 
-/// On which threads a call runs. No bit of a result depends on it.
+/// The threads that a call runs on. Results have the same bits for all of them.
 ///
 /// Without the feature `rayon` every call runs on the calling thread.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Threads {
-    /// Those of the rayon pool that the call is made in, which is the global one unless `ThreadPool::install` says
-    /// otherwise. A batch of up to 4096 values stays on one thread, the calling one.
+    /// The threads of the rayon pool that the call is made in: the global one, or that of `ThreadPool::install`. A batch of up to
+    /// 4096 values runs on the calling thread.
     #[default]
     Pool,
-    /// At most so many of them; of one, the calling thread.
+    /// At most this number of them; 1 means the calling thread.
     AtMost(NonZeroUsize),
     /// The calling thread alone: for a renderer that has its own threads, each with a part of the rays.
     Caller,
 }
 
-/// How a batch is cut in two.
+/// The division of a batch into two parts.
 #[derive(Clone, Copy)]
 pub(crate) struct Split {
-    /// How many of how many equal parts go to the first.
+    /// The first part has `share[0]` of `share[1]` equal shares.
     pub(crate) share: [usize; 2],
-    /// The threads of both.
+    /// The threads of both parts.
     pub(crate) threads: [Threads; 2],
 }
 
 impl Threads {
-    /// At most so many threads of the pool; none counts as one.
+    /// At most this number of threads of the pool; 0 counts as 1.
     #[must_use]
     pub fn at_most(threads: usize) -> Self {
         NonZeroUsize::new(threads).map_or(Self::Caller, Self::AtMost)
     }
 
-    /// For a batch that is cut in two; `None` if both parts run on this thread.
+    /// The division of a batch and its threads; `None` if both parts run on this thread.
     pub(crate) fn split(self) -> Option<Split> {
         match self {
             Self::Pool if cfg!(feature = "rayon") => Some(Split { share: [1, 2], threads: [self; 2] }),

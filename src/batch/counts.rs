@@ -1,20 +1,22 @@
-//! What became of the rays of a batch.
+//! The outcomes of the rays of a batch.
 
-/// What became of the rays of a batch: `sampled + empty + invalid` is its length. Where a call has several variates or
-/// distances for each ray, every one of them counts.
+/// The outcomes of the rays of a batch: `sampled + empty + invalid` is its length. If a call has several variates or
+/// distances per ray, each of them counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Counts {
-    /// Rays with a sample, also where a medium that does not scatter gives it the weight 0.
+    /// Rays with a sample. A medium that does not scatter gives it the weight 0.
     pub sampled: usize,
-    /// Valid rays without one: `t_min = t_max`, or no point of the ray is lit, or less than f32 can say anything about: an
-    /// interval shorter than 1e-18 m; for all densities but the transmittance also one shorter than about 1e-36 of `r^2`,
-    /// or that subtends about 1e-30 rad; for those with the cosine 1e-25 of the light; or, it may be, a ray that meets the
-    /// emitter's plane at an angle below 1e-30 rad.
+    /// Valid rays without a sample: `t_min = t_max`, no point of the ray is lit, or the lit part is less than f32 can resolve:
+    ///
+    /// - the lit interval is shorter than 1e-18 m;
+    /// - for all densities but the transmittance, it is shorter than about 1e-36 of `r^2`, or subtends less than about 1e-30 rad;
+    /// - for densities that follow the cosine, it has less than about 1e-25 of the light of an emitter faced squarely;
+    /// - possibly, the ray meets the emitter's plane at an angle below 1e-30 rad.
     pub empty: usize,
     /// Rays with a value that is NaN or out of range.
     pub invalid: usize,
-    /// Sampled rays whose iteration fell back to bisection at least once, or took more than 8 steps.
+    /// Sampled rays whose iteration bisected at least once, or took more than 8 steps.
     pub bisected: usize,
 }
 

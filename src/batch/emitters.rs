@@ -13,12 +13,12 @@ use core::ops::Range;
 pub struct Emitters<'a> {
     /// Positions and normals, or axes.
     pub(crate) points: Source<'a, Emitter, COLUMNS>,
-    /// The cones, where there are spots.
+    /// The cones, if there are spots.
     pub(crate) cones: Option<Source<'a, Emitter, CONE_COLUMNS>>,
 }
 
 impl<'a> Emitters<'a> {
-    /// One for the whole batch.
+    /// One emitter for the whole batch.
     ///
     /// ```
     /// # use airlight::{Emitter, Emitters};
@@ -30,8 +30,8 @@ impl<'a> Emitters<'a> {
         Self { points: Source::One(emitter), cones: emitter.cone().map(|_| Source::One(emitter)) }
     }
 
-    /// One per ray, as columns of the batch's length: positions (x, y, z \[m\]) and unit normals (x, y, z). The normal
-    /// (0, 0, 0) stands for a point emitter. Within the tolerance the length of a normal scales the cosine.
+    /// One emitter per ray, as columns of the batch's length: positions (x, y, z \[m\]) and unit normals (x, y, z). The normal
+    /// (0, 0, 0) means a point emitter. The length of a normal scales the cosine.
     ///
     /// ```
     /// # use airlight::Emitters;
@@ -45,9 +45,9 @@ impl<'a> Emitters<'a> {
         Self { points: Source::Each([px, py, pz, nx, ny, nz]), cones: None }
     }
 
-    /// One per ray, spots among them, as columns of the batch's length: positions (x, y, z \[m\]), unit vectors along the axes
-    /// (x, y, z), and the cosines of [`Emitter::spot`]. Two cosines of -1, which are those of a cone around all directions, stand
-    /// for an emitter that is no spot: its axis is then a normal, as in [`each`](Self::each).
+    /// One emitter per ray, spots among them, as columns of the batch's length: positions (x, y, z \[m\]), unit vectors along the
+    /// axes (x, y, z), and the cosines of [`Emitter::spot`]. Two cosines of -1 mean an emitter that is no spot: its axis is then a
+    /// normal, as in [`each`](Self::each).
     ///
     /// ```
     /// # use airlight::Emitters;
@@ -69,9 +69,8 @@ impl<'a> Emitters<'a> {
     /// `table[index[i]]` for ray `i`: `index` has the batch's length, `table` has any length but 0. An index out of range
     /// makes its ray invalid.
     ///
-    /// A table of some dozens of emitters takes less time than columns, whose values come from farther away; `cargo bench
-    /// --bench emitters` measures it. Every entry is looked at once per call, so that a short call should not bring a list of
-    /// thousands.
+    /// A table of some dozens of emitters takes less time than columns, as it stays in the cache (`cargo bench --bench emitters`).
+    /// Every call reads each entry once: a short call should not have a table of thousands.
     ///
     /// ```
     /// # use airlight::{Emitter, Emitters};
@@ -85,26 +84,26 @@ impl<'a> Emitters<'a> {
         Self { points: Source::Table { table, index }, cones: has_spots.then_some(Source::Table { table, index }) }
     }
 
-    /// Those of the rays of `range`.
+    /// The emitters of the rays of `range`.
     pub(super) fn part(&self, range: Range<usize>) -> Self {
         Self { points: self.points.part(range.clone()), cones: self.cones.map(|cones| cones.part(range)) }
     }
 
-    /// `Ok` if there is one for each of so many rays.
+    /// `Ok` if there is an emitter for each of `rays` rays.
     pub(super) fn check(&self, rays: usize) -> Result<(), Error> {
         self.points.check(rays)?;
         self.cones.map_or(Ok(()), |cones| cones.check(rays))
     }
 }
 
-/// Columns of an emitter: position and normal, or axis.
+/// The number of columns of emitters: position and normal, or axis.
 pub(super) const COLUMNS: usize = 6;
-/// And those of a cone.
+/// The number of columns of cones.
 pub(super) const CONE_COLUMNS: usize = 2;
 
 /// The emitters of some rays.
 pub(crate) type EmitterRows<'r> = Rows<'r, COLUMNS>;
-/// Their cones.
+/// The cones of some rays.
 pub(crate) type ConeRows<'r> = Rows<'r, CONE_COLUMNS>;
 
 impl Entry<COLUMNS> for Emitter {

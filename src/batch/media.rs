@@ -8,7 +8,7 @@ use crate::simd::Isa;
 use core::ops::Range;
 
 /// The medium of each ray: [one](Self::one) for the batch, one per ray as [columns](Self::each), or a
-/// [table](Self::table) with an index per ray. All of a call have as many channels.
+/// [table](Self::table) with an index per ray. All media of a call have the same number of channels.
 #[derive(Clone, Copy, Debug)]
 pub struct Media<'a>(pub(super) Kind<'a>);
 
@@ -20,7 +20,7 @@ pub(super) enum Kind<'a> {
 }
 
 impl<'a> Media<'a> {
-    /// One for the whole batch.
+    /// One medium for the whole batch.
     ///
     /// ```
     /// # use airlight::{Media, Medium};
@@ -36,7 +36,7 @@ impl<'a> Media<'a> {
         })
     }
 
-    /// One per ray, as columns of the batch's length, with the values of [`Medium::new`]: absorption and scattering
+    /// One medium per ray, as columns of the batch's length, with the values of [`Medium::new`]: absorption and scattering
     /// coefficients \[1/m\], mean cosines \[1\].
     ///
     /// ```
@@ -51,9 +51,9 @@ impl<'a> Media<'a> {
         Self(Kind::Grey(Source::Each([mu_a, mu_s, g])))
     }
 
-    /// One of 3 or 4 channels per ray, as columns of the batch's length, with the values of [`Medium::coloured`]: absorption and
-    /// scattering coefficients of each channel \[1/m\], mean cosines \[1\]. Of one channel it is [`each`](Self::each); any other
-    /// number is an error of the call.
+    /// One medium of 3 or 4 channels per ray, as columns of the batch's length, with the values of [`Medium::coloured`]: absorption
+    /// and scattering coefficients of each channel \[1/m\], mean cosines \[1\]. With one channel it is [`each`](Self::each). With any
+    /// other number of channels, calls return [`Error::Value`].
     ///
     /// ```
     /// # use airlight::Media;
@@ -65,7 +65,7 @@ impl<'a> Media<'a> {
         if let ([mu_a], [mu_s]) = (&mu_a[..], &mu_s[..]) {
             return Self::each(mu_a, mu_s, g);
         }
-        // The first channel stands where there is none: nobody asks for it.
+        // Columns beyond the channels are never read; the first channel fills them.
         let padded = |columns: [&'a [f32]; C]| [0, 1, 2, 3].map(|c| columns.get(c).or(columns.first()).copied());
         let ([a0, a1, a2, a3], [s0, s1, s2, s3]) = (padded(mu_a), padded(mu_s));
         let columns = [a0, a1, a2, a3, s0, s1, s2, s3, Some(g)].map(Option::unwrap_or_default);
@@ -90,7 +90,7 @@ impl<'a> Media<'a> {
         })
     }
 
-    /// How many channels they have.
+    /// The number of channels.
     pub(crate) fn channels(&self) -> usize {
         match self.0 {
             Kind::Grey(_) => 1,
@@ -98,7 +98,7 @@ impl<'a> Media<'a> {
         }
     }
 
-    /// `Ok` if there is one for each of so many rays, and all have as many channels.
+    /// `Ok` if there is a medium for each of `rays` rays, and all have the same number of channels.
     pub(super) fn check(&self, rays: usize) -> Result<(), Error> {
         match &self.0 {
             Kind::Grey(source) => source.check(rays),
@@ -121,7 +121,7 @@ impl<'a> Media<'a> {
         }
     }
 
-    /// Those of the rays of `range`.
+    /// The media of the rays of `range`.
     pub(super) fn part(&self, range: Range<usize>) -> Self {
         Self(match self.0 {
             Kind::Grey(source) => Kind::Grey(source.part(range)),
@@ -129,7 +129,7 @@ impl<'a> Media<'a> {
         })
     }
 
-    /// Those of the rays of `range`, at most [`MOST_RAYS`](super::MOST_RAYS), by way of `place`.
+    /// The media of the rays of `range`, at most [`MOST_RAYS`](super::MOST_RAYS) of them, gathered in `place` if need be.
     pub(crate) fn rows<'r>(&self, range: Range<usize>, place: &'r mut MediaPlace) -> MediaRows<'r>
     where
         'a: 'r,
@@ -147,18 +147,18 @@ impl<'a> Media<'a> {
     }
 }
 
-/// Columns of a medium: `mu_a`, `mu_s` and `g`.
+/// The number of columns of grey media: `mu_a`, `mu_s` and `g`.
 pub(super) const COLUMNS: usize = 3;
-/// Of a coloured one: `mu_a` of all channels, `mu_s` of all channels, and `g`.
+/// The number of columns of coloured media: `mu_a` of all channels, `mu_s` of all channels, and `g`.
 pub(super) const CHANNEL_COLUMNS: usize = 2 * MOST_CHANNELS + 1;
-/// The same, and the means of `mu_a` and of `mu_s`.
+/// The number of columns of coloured media with the means of `mu_a` and of `mu_s`.
 const WITH_MEANS: usize = CHANNEL_COLUMNS + 2;
-/// Where these are.
+/// Indices of these columns.
 const G: usize = CHANNEL_COLUMNS - 1;
 const MEAN_A: usize = CHANNEL_COLUMNS;
 const MEAN_S: usize = CHANNEL_COLUMNS + 1;
 
-/// Place for the media of a block.
+/// Storage for the media of a block.
 pub(crate) struct MediaPlace {
     grey: Gathered<COLUMNS>,
     given: Gathered<CHANNEL_COLUMNS>,
@@ -166,14 +166,14 @@ pub(crate) struct MediaPlace {
 }
 
 impl MediaPlace {
-    /// Nothing yet.
+    /// Empty storage.
     pub(crate) fn new() -> Self {
         Self { grey: Gathered::new(), given: Gathered::new(), with_means: Gathered::new() }
     }
 }
 
 impl<'r> Rows<'r, CHANNEL_COLUMNS> {
-    /// The same with the means; all values NaN where one of them is none of a medium.
+    /// The rows with the means; all values are NaN where one of them is not valid.
     fn with_means<'p>(&self, channels: usize, place: &'p mut Gathered<WITH_MEANS>) -> Rows<'p, WITH_MEANS> {
         match self {
             Self::One(row) => Rows::One(with_means(row, channels)),
@@ -199,21 +199,21 @@ fn with_means(row: &[f32; CHANNEL_COLUMNS], channels: usize) -> [f32; WITH_MEANS
 /// The media of some rays.
 #[derive(Clone, Copy)]
 pub(crate) struct MediaRows<'r> {
-    /// Grey ones, or the means of coloured ones.
+    /// Grey media, or the means of coloured media.
     pub(crate) means: MediumRows<'r>,
-    /// The channels of coloured ones.
+    /// The channels of coloured media.
     pub(crate) channels: Option<ChannelRows<'r>>,
 }
 
 impl<'r> MediaRows<'r> {
-    /// Those of the rays of `range`.
+    /// The media of the rays of `range`.
     pub(crate) fn part(&self, range: Range<usize>) -> Self {
         let channels =
             self.channels.map(|ChannelRows { rows, count }| ChannelRows { rows: rows.part(range.clone()), count });
         Self { means: self.means.part(range), channels }
     }
 
-    /// The grey media of a channel, if it is written to a column of its own; the means else.
+    /// The media of an output column: those of its channel if there are several columns, else the means.
     pub(crate) fn of_output(&self, column: usize, columns: usize) -> MediumRows<'r> {
         match &self.channels {
             Some(channels) if columns > 1 => channels.channel(column),
@@ -234,7 +234,7 @@ impl<'r> ChannelRows<'r> {
         self.rows.select([c, MOST_CHANNELS + c, G])
     }
 
-    /// Their lane groups.
+    /// The channels in lane groups.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn groups<I: Isa>(&self, isa: I) -> ChannelGroups<'r, I> {
         ChannelGroups { groups: self.rows.groups(isa), count: self.count }
@@ -248,7 +248,7 @@ pub(crate) struct ChannelGroups<'r, I: Isa> {
 }
 
 impl<I: Isa> ChannelGroups<'_, I> {
-    /// The channels of lane group `index`, where media are coloured.
+    /// The channels of lane group `index`, if media are coloured.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn lanes(coloured: Option<&Self>, isa: I, index: usize) -> Option<ChannelLanes<I>> {
         let Self { groups, count } = coloured?;

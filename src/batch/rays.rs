@@ -7,21 +7,21 @@ use core::ops::Range;
 
 /// A batch of rays as a structure of arrays; every column has the length of the batch and any alignment.
 ///
-/// The values mean what they mean in [`Ray::new`](crate::Ray::new). A ray whose values are out of range there is
-/// *invalid*: it is counted, and what is written for it is zero. (Lengths of directions and normals are held to the
-/// tolerance by their squares, with a slack of 1e-6.)
+/// The values are those of [`Ray::new`](crate::Ray::new). A ray with a value out of the range given there is *invalid*: it is
+/// counted, and its outputs are 0. (The tolerance of lengths of directions and normals is checked by their squares, with a slack
+/// of 1e-6.)
 ///
-/// Made by [`Rays::new`] alone, so that rays can get more columns without breaking a caller.
+/// Only [`Rays::new`] makes rays, so that later versions can add columns.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct Rays<'a> {
-    /// Where the rays start, x, y, z \[m\].
+    /// Origins: x, y, z \[m\].
     pub origin: [&'a [f32]; 3],
-    /// Where they go, x, y, z, of length 1 within [`UNIT_TOLERANCE`](crate::UNIT_TOLERANCE).
+    /// Directions: x, y, z, of length 1 within [`UNIT_TOLERANCE`](crate::UNIT_TOLERANCE).
     pub direction: [&'a [f32]; 3],
-    /// Where they enter the medium \[m\].
+    /// Distances at which the rays enter the medium \[m\].
     pub t_min: &'a [f32],
-    /// Where they leave it \[m\], may be infinite.
+    /// Distances at which the rays leave the medium \[m\]; may be infinite.
     pub t_max: &'a [f32],
 }
 
@@ -40,13 +40,13 @@ impl<'a> Rays<'a> {
         Self { origin, direction, t_min, t_max }
     }
 
-    /// How many rays: the length of `origin[0]`.
+    /// The number of rays: the length of `origin[0]`.
     #[must_use]
     pub fn len(&self) -> usize {
         self.origin[0].len()
     }
 
-    /// Whether there is none.
+    /// Whether there are no rays.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
@@ -76,7 +76,7 @@ impl<'a> Rays<'a> {
     }
 }
 
-/// Columns of rays cut into lane groups, all of them as many.
+/// Columns of rays cut into lane groups, all of the same number.
 pub(crate) struct RayGroups<'a, I: Isa> {
     origin: [&'a [I::Group]; 3],
     direction: [&'a [I::Group]; 3],
@@ -85,7 +85,7 @@ pub(crate) struct RayGroups<'a, I: Isa> {
 }
 
 impl<I: Isa> RayGroups<'_, I> {
-    /// Has the rays fetched that lie so many groups after these.
+    /// Prefetches the rays of the group `ahead` groups after `index`.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn prefetch(&self, isa: I, index: usize, ahead: usize) {
         let ([ox, oy, oz], [dx, dy, dz]) = (&self.origin, &self.direction);

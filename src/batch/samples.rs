@@ -1,35 +1,35 @@
-//! Where samples are written.
+//! The output columns of samples.
 
 use super::{Column, Columns, OfRuns, Outputs, Run, columns};
 use crate::scene::MOST_CHANNELS;
 use core::ops::Range;
 
-/// Where a batch of samples is written; every column has the length of the variates: that of the batch, or a multiple of
+/// The output columns of a batch of samples. Every column has the length of the variates: that of the batch or a multiple of
 /// it, the samples of one ray next to each other.
 ///
-/// Made by [`Samples::new`] alone, so that samples can get more columns without breaking a caller.
+/// Only [`Samples::new`] makes samples, so that later versions can add columns.
 #[derive(Debug)]
 #[non_exhaustive]
 pub struct Samples<'a> {
     /// Distances along the rays, in `[t_min, t_max]`, 0 where there is no sample \[m\].
     pub t: &'a mut [f32],
-    /// Probability densities over distance \[1/m\]; one below f32's range is 0.
+    /// Probability densities over distance \[1/m\]; a density below f32's range is 0.
     pub pdf: &'a mut [f32],
     /// `mu_s T rho N / (r^2 pdf)`: the one-sample estimate of the ray's single-scattered radiance per unit of the
     /// emitter's intensity \[1/m^2\], with `1/r^2` cancelled analytically and `T` counted from `t_min`.
     ///
-    /// `T` takes the whole leg from the sample to the emitter to lie in the medium. If the length `outside` \[m\] of it does
+    /// `T` assumes that the whole leg from the sample to the emitter lies in the medium. If a length `outside` \[m\] of it does
     /// not, as with a lamp outside the fog, `weight * exp(mu_t * outside)` is the unbiased estimate. A transmittance below
-    /// f32's range, at an optical depth above 87, makes the weight 0: there is nothing to correct then.
+    /// f32's range, at an optical depth above 87, makes the weight 0, which this factor cannot correct.
     ///
-    /// None, or one for each channel of the medium, from the first on.
+    /// There are no columns, or one for each channel of the medium, from the first on.
     pub weights: [Option<&'a mut [f32]>; MOST_CHANNELS],
     /// Distances from the samples to the emitters \[m\], exact also where `t` alone cannot resolve them.
     pub r: Option<&'a mut [f32]>,
 }
 
 impl<'a> Samples<'a> {
-    /// Distances and their densities, and nothing else.
+    /// Distances and densities.
     ///
     /// ```
     /// # use airlight::Samples;
@@ -41,13 +41,13 @@ impl<'a> Samples<'a> {
         Self { t, pdf, weights: columns([]), r: None }
     }
 
-    /// Weights as well, of a grey medium.
+    /// Adds weights of a grey medium.
     #[must_use]
     pub fn weight(self, weight: &'a mut [f32]) -> Self {
         self.weights([weight])
     }
 
-    /// Weights as well, a column for each channel of a coloured medium; columns beyond the fourth are not written.
+    /// Adds weights of a coloured medium, a column for each channel; columns beyond the fourth are not written.
     ///
     /// ```
     /// # use airlight::Samples;
@@ -59,13 +59,13 @@ impl<'a> Samples<'a> {
         Self { weights: columns(weights), ..self }
     }
 
-    /// Distances to the emitters as well.
+    /// Adds distances to the emitters.
     #[must_use]
     pub fn r(self, r: &'a mut [f32]) -> Self {
         Self { r: Some(r), ..self }
     }
 
-    /// How many columns of weights there are.
+    /// The number of columns of weights.
     pub(crate) fn channels(&self) -> usize {
         self.weights.iter().flatten().count()
     }
@@ -76,7 +76,7 @@ impl<'a> Samples<'a> {
         Samples { t: self.t, pdf: self.pdf, weights, r: self.r.as_deref_mut() }
     }
 
-    /// The columns that are there always, and those that may be wanted.
+    /// The columns that are always there, and the optional ones.
     fn columns(self) -> ([&'a mut [f32]; 2], Optional<'a>) {
         let [w_0, w_1, w_2, w_3] = self.weights;
         ([self.t, self.pdf], [w_0, w_1, w_2, w_3, self.r])
@@ -90,7 +90,7 @@ impl<'a> Samples<'a> {
 /// Weights and `r`.
 type Optional<'a> = [Option<&'a mut [f32]>; MOST_CHANNELS + 1];
 
-/// Those of [`Samples`].
+/// The outputs of [`Samples`].
 pub(crate) struct OfSamples;
 
 impl Outputs for OfSamples {

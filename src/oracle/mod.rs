@@ -1,8 +1,8 @@
-//! The truth, in f64: one ray at a time, plain and slow, to test the sampler against.
+//! The reference in f64: one ray at a time, plain and slow. Tests compare the kernels with it.
 //!
-//! Nothing here is shared with the kernels but the types that go in. [`Scene`] has the integrand and its integral by
-//! quadrature, and each [`Strategy`](crate::Strategy)'s density, distribution, inverse and variance, [`Coloured`] the same
-//! for media of several channels; [`paper`] the published equations; [`quadrature`] the integrals.
+//! It shares only the types of the inputs with the kernels. [`Scene`] has the integrand, its integral by quadrature, and the
+//! density, distribution, inverse and variance of each [`Strategy`](crate::Strategy); [`Coloured`] has the same for media of
+//! several channels; [`paper`] has the published equations, and [`quadrature`] the integration.
 //!
 //! The symbols, with `x(t)` the point of the ray at `t` and `y` the emitter:
 //!

@@ -1,4 +1,4 @@
-//! The coefficients of a medium that differ from channel to channel.
+//! The coefficients of a coloured medium.
 
 /// The most channels that a medium has.
 pub(crate) const MOST_CHANNELS: usize = 4;
@@ -6,30 +6,30 @@ pub(crate) const MOST_CHANNELS: usize = 4;
 /// `mu_a` and `mu_s` \[1/m\] of several channels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Colour {
-    /// Those beyond `count` are 0.
+    /// Values beyond `count` are 0.
     mu_a: [f32; MOST_CHANNELS],
     mu_s: [f32; MOST_CHANNELS],
     count: usize,
 }
 
 impl Colour {
-    /// That of as many channels as both slices have, at most 4.
+    /// From the values of each channel, at most 4: both slices have the same length.
     pub(crate) fn new(mu_a: &[f32], mu_s: &[f32]) -> Self {
         let padded = |values: &[f32]| std::array::from_fn(|c| values.get(c).copied().unwrap_or(0.0));
         Self { mu_a: padded(mu_a), mu_s: padded(mu_s), count: mu_a.len() }
     }
 
-    /// How many channels it has.
+    /// The number of channels.
     pub(super) fn count(&self) -> usize {
         self.count
     }
 
-    /// `mu_a` and `mu_s` of all.
+    /// `mu_a` and `mu_s` of all channels.
     pub(super) fn coefficients(&self) -> ([f32; MOST_CHANNELS], [f32; MOST_CHANNELS]) {
         (self.mu_a, self.mu_s)
     }
 
-    /// `mu_a` and `mu_s` of one of them.
+    /// `mu_a` and `mu_s` of channel `c`, if it exists.
     pub(super) fn channel(&self, c: usize) -> Option<(f32, f32)> {
         (c < self.count).then(|| (self.mu_a[c], self.mu_s[c]))
     }

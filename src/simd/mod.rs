@@ -2,7 +2,7 @@
 //!
 //! A kernel is written once, generic over [`Isa`]; an instruction set is a thin binding of [`Lanes`] and [`Double`].
 //!
-//! The unit tests run no kernel: they are built without those of x86-64, which take most of the time.
+//! Unit tests run no kernel of x86-64: they are built without these, which take most of the build time.
 
 #[cfg(feature = "measure")]
 pub(crate) mod counting;
@@ -22,7 +22,7 @@ pub(crate) use records::{GROUPS, Records, Room};
 
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
-/// No lane group has more lanes.
+/// The largest number of lanes of a lane group.
 pub(crate) const MOST_LANES: usize = 32;
 
 /// A group of lanes that can be added and multiplied.
@@ -35,14 +35,14 @@ pub(crate) trait Number:
 
 /// A group of `f32` lanes, one ray each.
 ///
-/// Every method is inlined where the build is optimised, so that it takes on the target features of the function it ends
-/// up in. No method moves a value from one lane to another: what a lane computes depends on that lane alone.
+/// Optimised builds inline every method, so that it has the target features of its caller. No method moves a value from one lane
+/// to another: the result of a lane depends on that lane alone.
 pub(crate) trait Lanes: Number + Div<Output = Self> {
     /// One truth value per lane.
     type Mask: Copy + BitAnd<Output = Self::Mask> + BitOr<Output = Self::Mask> + Not<Output = Self::Mask>;
     /// The same number of lanes in double precision.
     type Double: Double;
-    /// How many lanes.
+    /// The number of lanes.
     const N: usize;
 
     fn sqrt(self) -> Self;
@@ -51,7 +51,7 @@ pub(crate) trait Lanes: Number + Div<Output = Self> {
     fn min(self, o: Self) -> Self;
     /// The larger one; either or NaN where a lane is NaN.
     fn max(self, o: Self) -> Self;
-    /// False where a lane is NaN, as are `le` and `eq`.
+    /// `lt`, `le` and `eq` are false where a lane is NaN.
     fn lt(self, o: Self) -> Self::Mask;
     fn le(self, o: Self) -> Self::Mask;
     fn eq(self, o: Self) -> Self::Mask;
@@ -70,7 +70,7 @@ pub(crate) trait Lanes: Number + Div<Output = Self> {
 
     /// The coefficients of the product of two polynomials, from degree 0 on; `R = P + Q - 1`.
     ///
-    /// At any time only `P` sums are open, so `p` is the shorter one: all of them at once do not fit the registers.
+    /// `P` sums are open at a time, so that `p` should be the shorter polynomial: all sums at once do not fit the registers.
     #[cfg_attr(optimized, inline(always))]
     fn multiply<const P: usize, const Q: usize, const R: usize>(p: &[Self; P], q: &[Self; Q]) -> [Self; R] {
         const { assert!(R + 1 == P + Q) };
@@ -80,7 +80,7 @@ pub(crate) trait Lanes: Number + Div<Output = Self> {
         while k < Q {
             let mut i = 0;
             while i < P {
-                // What is open for degree k + i, but for the highest, which is new.
+                // The open sum of degree k + i; that of the highest degree is new.
                 open[i] = if k == 0 || i == P - 1 { p[i] * q[k] } else { p[i].mul_add(q[k], open[i + 1]) };
                 i += 1;
             }
@@ -96,13 +96,13 @@ pub(crate) trait Lanes: Number + Div<Output = Self> {
     }
 }
 
-/// The double-precision companion of a lane group: geometry is computed in it and rounded once.
+/// The f64 companion of a lane group.
 pub(crate) trait Double: Number {
     fn min(self, o: Self) -> Self;
     fn max(self, o: Self) -> Self;
 }
 
-/// A zero-sized proof that this CPU has one instruction set, and what makes values of it.
+/// A zero-sized proof that this CPU has an instruction set; it makes values of it.
 pub(crate) trait Isa: Copy {
     type V: Lanes<Mask = Self::Mask, Double = Self::Double>;
     type Mask: Copy + BitAnd<Output = Self::Mask> + BitOr<Output = Self::Mask> + Not<Output = Self::Mask>;
@@ -114,24 +114,23 @@ pub(crate) trait Isa: Copy {
 
     fn splat(self, x: f32) -> Self::V;
     fn splat_double(self, x: f64) -> Self::Double;
-    /// A column cut into groups; what does not fill one is left out.
+    /// A column cut into groups, without the rest that does not fill a group.
     fn groups(column: &[f32]) -> &[Self::Group];
     fn groups_mut(column: &mut [f32]) -> &mut [Self::Group];
     fn load(self, group: &Self::Group) -> Self::V;
     fn store(self, lanes: Self::V, group: &mut Self::Group);
-    /// Prefetches the group that lies so many after this one; does nothing without such an instruction.
+    /// Prefetches the group `_ahead` groups after this one; does nothing without such an instruction.
     fn prefetch(self, _: &Self::Group, _ahead: usize) {}
 
-    /// Does `work` with the instructions of this set on. The work is inlined where the build is optimised, like all that it
-    /// calls. Its machine code belongs to the module of `Home`: compilers make one unit of a module, and several units at a
-    /// time.
+    /// Runs `work` with the instructions of this set. Optimised builds inline the work and all that it calls. Its machine code
+    /// belongs to the module of `Home`: compilers make one unit of a module, and compile several units at a time.
     fn vectorize<Home, R>(self, work: impl FnOnce() -> R) -> R;
 }
 
-/// No lane.
+/// The mask with no lane set.
 #[cfg_attr(optimized, inline(always))]
 pub(crate) fn none<I: Isa>(isa: I) -> I::Mask {
-    // In a form that compilers see to be constant.
+    // Compilers recognise this form as a constant.
     let mask = isa.splat(1.0).lt(isa.splat(0.0));
     mask & !mask
 }
@@ -143,17 +142,17 @@ pub(crate) trait Kernel {
     fn run<I: Isa>(self, isa: I) -> Self::Output;
 }
 
-/// What runs kernels.
+/// A runner of kernels.
 pub(crate) trait Machine: Copy {
-    /// How many lanes a group has.
+    /// The number of lanes of a group.
     fn lanes(self) -> usize;
     fn run<K: Kernel>(self, kernel: K) -> K::Output;
 }
 
-/// An instruction set that this CPU has: there is no other way to one than [`available`](Self::available).
+/// An instruction set that this CPU has. Only [`available`](Self::available) and [`detect`](Self::detect) make one.
 ///
-/// Results are equal to the bit on all that are [fused](Self::is_fused). Of the others there is one on x86-64, `portable`
-/// in a build that does not enable FMA, and its results are as accurate as stated.
+/// All backends that are [fused](Self::is_fused) give equal bits. On x86-64 one backend is not: `portable`, in a build that does
+/// not enable FMA. Its bits differ; its errors are within the stated bounds.
 #[derive(Clone, Copy, Debug)]
 pub struct Backend(Kind);
 
@@ -171,7 +170,7 @@ enum Kind {
 impl Backend {
     /// Every backend that this CPU can run, the fastest first.
     ///
-    /// With the feature `measure`, after these, also `scalar`: one lane, to compare with.
+    /// With the feature `measure`, `scalar` comes last: one lane, for comparison.
     pub fn available() -> impl Iterator<Item = Self> {
         [
             #[cfg(all(target_arch = "x86_64", not(test)))]
@@ -187,13 +186,13 @@ impl Backend {
         .map(Self)
     }
 
-    /// The fastest available one.
+    /// The fastest backend that this CPU can run.
     #[must_use]
     pub fn detect() -> Self {
         Self::available().next().unwrap_or(Self(Kind::Portable))
     }
 
-    /// Its name on the command line and in JSON.
+    /// The name on the command line and in JSON.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self.0 {
@@ -207,8 +206,7 @@ impl Backend {
         }
     }
 
-    /// Whether it gives the bits of the x86-64 sets with fused multiply-add, as AArch64 does too: all backends of which this is
-    /// true give the same.
+    /// Whether the backend has fused multiply-add. All backends that have it, on x86-64 and AArch64, give equal bits.
     #[must_use]
     pub fn is_fused(self) -> bool {
         match self.0 {
