@@ -1,4 +1,4 @@
-//! Borrowed columns of a batch: rays, emitters, media in, samples out, and how they are split.
+//! The borrowed columns of a batch: rays, emitters and media as input, samples as output, and their division into parts.
 
 mod counts;
 mod emitters;
@@ -28,7 +28,7 @@ pub(crate) use source::{Gathered, Rows};
 
 use crate::simd::Isa;
 
-/// The most rays of a block.
+/// The largest number of rays of a block.
 pub(crate) const MOST_RAYS: usize = 256;
 
 /// The first `count` groups of a column.

@@ -1,4 +1,4 @@
-//! What a kernel cannot be faster than: the operations it needs, and how many of them a core does.
+//! The limits of the speed of a kernel: the operations it needs, and the rate at which a core executes them.
 
 use crate::batch::{Emitters, Inputs, Media, OfSamples, Outputs, Rays, Samples};
 use crate::road::{self, Task};
@@ -8,12 +8,12 @@ use crate::{Error, Sampler};
 use core::hint::black_box;
 use core::ops::Add;
 
-/// Arithmetic of one lane.
+/// The arithmetic operations of one lane.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Operations {
-    /// A multiplication and an addition at once; what is in double precision takes the place of two.
+    /// Fused multiplications and additions; one in f64 counts as two.
     pub multiply_adds: usize,
-    /// Additions and multiplications by themselves.
+    /// Single additions and multiplications.
     pub additions: usize,
     /// Divisions and square roots.
     pub divisions: usize,
@@ -31,9 +31,8 @@ impl Add for Operations {
 }
 
 impl Sampler {
-    /// What [`sample`](Self::sample) needs for the whole batch, with every lane on its own: where one has to wait for
-    /// others in its group, the group does more. Comparisons, selections and integers are not counted, nor is what no
-    /// result depends on.
+    /// The operations of [`sample`](Self::sample) for the whole batch, lane by lane; a group does more where a lane waits for
+    /// others. Comparisons, selections and integer operations are not counted, nor are operations that no result depends on.
     ///
     /// # Errors
     /// As [`sample`](Self::sample).
@@ -61,10 +60,10 @@ impl Sampler {
     }
 }
 
-/// Rays whose arithmetic is written down before it is counted.
+/// The number of rays whose operations are recorded before they are counted.
 const AT_ONCE: usize = 256;
 
-/// A unit of the core that a kernel may wait for.
+/// An execution unit that may limit a kernel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Limit {
     /// `x m + a`.
@@ -74,8 +73,8 @@ pub enum Limit {
 }
 
 impl Backend {
-    /// Does `steps` operations on each of `chains` independent lane groups, which are 4, 8 or 12; returns how many that
-    /// makes for single lanes.
+    /// Executes `steps` operations on each of `chains` (4, 8 or 12) independent lane groups; returns the number of operations of
+    /// single lanes.
     #[doc(hidden)]
     pub fn strain(self, limit: Limit, chains: usize, steps: usize) -> usize {
         match chains {

@@ -1,7 +1,7 @@
-//! The road that every ray takes: columns -> geometry -> density -> inversion -> samples.
+//! From a call to its kernels: columns -> geometry -> density -> inversion -> samples.
 //!
-//! A batch is cut into chunks that stay in a core's cache, a chunk into blocks of a few lane groups; a block goes through the
-//! stations of one task and one density, one pass after the other. No ray's arithmetic knows where in the batch it stands:
+//! A batch is cut into chunks that stay in a core's cache, and a chunk into blocks of a few lane groups. The passes of a task
+//! and a density run over a block, one after the other. The arithmetic of a ray does not depend on its place in the batch:
 //! chunks, blocks and threads change no bit.
 
 mod at_distance;
@@ -31,32 +31,32 @@ use core::marker::PhantomData;
 use core::ops::Range;
 use core::slice::from_ref;
 
-/// Values per chunk: up to 22 columns of this many are 352 KiB, which stay in a core's cache.
+/// The number of values of a chunk: up to 22 columns of this length are 352 KiB, which stay in a core's cache.
 const CHUNK: usize = 4096;
-/// A ray with so many values goes by itself. Its values fill the lanes, and it takes the set-up of a whole lane group: with
-/// 32 lanes, one for 32 draws.
+/// A ray with at least this number of values is a chunk of its own. Its values fill the lanes, and it costs the set-up of a whole
+/// lane group: with 32 lanes, one set-up for 32 samples.
 const MANY: usize = 1024;
-// The lanes of a kernel count the values of a chunk in f32.
+// A tally counts the values of a chunk in f32.
 const _: () = assert!(CHUNK + MOST_LANES * MANY < 1 << f32::MANTISSA_DIGITS);
 
-/// Where a task writes to.
+/// The output columns of a task.
 pub(crate) type Out<'a, T> = <<T as Task>::Out as Outputs>::At<'a>;
 
-/// What is sampled, and how exactly.
+/// The density and the precision.
 #[derive(Clone, Copy)]
 pub(crate) struct Method {
     pub(crate) strategy: Strategy,
     pub(crate) precision: Precision,
 }
 
-/// What a call does with every ray.
+/// What a call computes for every ray.
 pub(crate) trait Task {
-    /// How it is done.
+    /// The parameters of the call.
     type Method: Copy + Send + Sync;
-    /// The columns that it writes.
+    /// The output columns.
     type Out: Outputs;
 
-    /// Takes whole lane groups from station to station, by the passes of the method.
+    /// Runs the passes of the method over whole lane groups.
     fn run(machine: impl Machine, method: Self::Method, inputs: &Inputs<'_>, out: Out<'_, Self>) -> Counts;
 }
 
@@ -81,7 +81,7 @@ impl<T: OfDensity, D: Kind> Kernel for OnGroups<'_, '_, T, D> {
     }
 }
 
-/// Chooses the kernel of a task.
+/// Runs the kernel of a task for a strategy.
 fn by_strategy<T: OfDensity>(machine: impl Machine, method: Method, inputs: &Inputs<'_>, out: Out<'_, T>) -> Counts {
     let Method { strategy, precision } = method;
     fn with<T: OfDensity, D: Kind>(
@@ -107,7 +107,7 @@ fn by_strategy<T: OfDensity>(machine: impl Machine, method: Method, inputs: &Inp
     }
 }
 
-/// Takes a batch the whole way, its chunks spread over the threads.
+/// Runs a task on a batch, its chunks spread over the threads.
 pub(crate) fn travel<T: Task>(
     threads: Threads,
     backend: Backend,
@@ -139,7 +139,7 @@ fn join<A, B>(a: impl FnOnce() -> A, b: impl FnOnce() -> B) -> (A, B) {
     (a(), b())
 }
 
-/// Takes one ray the whole way, with what the task takes for it.
+/// Runs a task on one ray with the numbers `given`.
 pub(crate) fn travel_one<T: Task>(
     backend: Backend,
     method: T::Method,
@@ -157,10 +157,9 @@ pub(crate) fn travel_one<T: Task>(
     by_groups::<T>(backend, method, &Inputs::one(rays, *emitter, *medium, given), out)
 }
 
-/// Two parts of whole chunks, so that only the last chunk is cut short, the first with so many of so many equal parts; `None`
-/// for a single chunk.
+/// Two parts of whole chunks (only the last chunk may be short), the first with about `low/all` of them; `None` for a single chunk.
 fn parts<'a>(inputs: &Inputs<'a>, [low, all]: [usize; 2]) -> Option<(Inputs<'a>, Inputs<'a>)> {
-    // Of two chunks or more both parts have one.
+    // Both parts have at least one chunk.
     let first = |length: usize, chunk: usize| {
         let chunks = length.div_ceil(chunk) as u128 * low as u128 / all as u128;
         (chunks as usize).max(1) * chunk
@@ -181,8 +180,8 @@ fn parts<'a>(inputs: &Inputs<'a>, [low, all]: [usize; 2]) -> Option<(Inputs<'a>,
     }
 }
 
-/// Takes a chunk the whole way. Passes take whole lane groups and leave out the rays that do not fill one. These go one by
-/// one, or as a group with rays before them, or as a group with pads.
+/// Runs a task on a chunk. Passes run over whole lane groups. The rays that do not fill a group run one by one, or in a group with
+/// the rays before them, or in a group with pads.
 fn by_groups<T: Task>(backend: Backend, method: T::Method, inputs: &Inputs<'_>, mut out: Out<'_, T>) -> Counts {
     let (lanes, rays, per_ray) = (backend.lanes(), inputs.len(), inputs.per_ray);
     match rays {
@@ -200,7 +199,7 @@ fn by_groups<T: Task>(backend: Backend, method: T::Method, inputs: &Inputs<'_>, 
         let out = T::Out::part(&mut out, 0..rays * per_ray);
         counts = T::run(backend, method, inputs, out);
     }
-    // Set-ups and draws of lane groups, which take about as long: one by one, and together.
+    // The number of set-ups and samples of lane groups, which take about equal times: one by one, and together.
     let by_themselves = few * (1 + per_ray.div_ceil(lanes)) < 1 + per_ray;
     let rest = if by_themselves {
         let of_ray = |i| {
@@ -209,7 +208,7 @@ fn by_groups<T: Task>(backend: Backend, method: T::Method, inputs: &Inputs<'_>, 
         };
         (whole..rays).map(of_ray).fold(Counts::default(), |sum, counts| sum + counts)
     } else if whole > 0 {
-        // The last group once more, up to the end: what was written is written again, with the same bits.
+        // A group that ends with the last ray: some values are written again, with the same bits.
         let last = inputs.slice(rays - lanes..rays).counting(lanes - few..lanes);
         let out = T::Out::part(&mut out, (rays - lanes) * per_ray..rays * per_ray);
         T::run(backend, method, &last, out)
@@ -220,14 +219,14 @@ fn by_groups<T: Task>(backend: Backend, method: T::Method, inputs: &Inputs<'_>, 
             let given = first_values(inputs.given);
             T::Out::by_pads(out, |out| T::run(backend, method, &padded.by_turn(&given, 1), out))
         } else {
-            // Lanes beyond the rays find no values.
+            // Lanes beyond the rays have no values.
             T::run(backend, method, &padded, out)
         }
     };
     counts + rest
 }
 
-/// Takes one ray the whole way: every lane has it, and a value of its own.
+/// Runs a task on one ray: every lane has this ray, and a value of its own.
 fn one_ray<T: Task>(backend: Backend, method: T::Method, inputs: &Inputs<'_>, mut out: Out<'_, T>) -> Counts {
     let (lanes, values) = (backend.lanes(), inputs.per_ray);
     let mut pads = Pads::new();
@@ -244,6 +243,6 @@ fn one_ray<T: Task>(backend: Backend, method: T::Method, inputs: &Inputs<'_>, mu
     };
     let few = values % lanes;
     let whole = run(0..values - few, 0..lanes);
-    // The last turn once more, up to the end.
+    // A turn that ends with the last value.
     if few == 0 { whole } else { whole + run(values - lanes..values, lanes - few..lanes) }
 }

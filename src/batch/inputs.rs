@@ -1,4 +1,4 @@
-//! What a call reads, and the parts that it is cut into.
+//! The inputs of a call, and the parts into which it is cut.
 
 use super::runs::Order;
 use super::{Emitters, Media, RayGroups, Rays, Run, Turn};
@@ -7,23 +7,23 @@ use crate::scene::{Emitter, Medium};
 use crate::simd::Isa;
 use core::ops::Range;
 
-/// The columns that a call reads: the batch, and for each ray some numbers (variates, or distances) next to each other.
+/// The input columns of a call: the batch, and for each ray some numbers (variates or distances) next to each other.
 #[derive(Clone, Copy)]
 pub(crate) struct Inputs<'a> {
     pub(crate) rays: Rays<'a>,
     pub(crate) emitters: Emitters<'a>,
     pub(crate) media: Media<'a>,
-    /// Empty if the task takes no numbers.
+    /// The numbers of all rays; empty if the task takes none.
     pub(crate) given: &'a [f32],
-    /// How many of them each ray has; the same number of values is written for it.
+    /// The number of numbers, and of output values, of each ray.
     pub(crate) per_ray: usize,
     pub(super) order: Order,
-    /// The lanes that count, from the first to before the second; `None`: all lanes.
+    /// The lanes that are counted: from the first to before the second; `None` means all.
     pub(super) counted: Option<[usize; 2]>,
 }
 
 impl<'a> Inputs<'a> {
-    /// The inputs, if every column has the same length; nothing is given yet.
+    /// The inputs without numbers, if every column has the same length.
     pub(crate) fn new(rays: &Rays<'a>, emitters: &Emitters<'a>, media: &Media<'a>) -> Result<Self, Error> {
         let (rays, emitters, media) = (*rays, *emitters, *media);
         let inputs = Self { rays, emitters, media, given: &[], per_ray: 1, order: Order::ByTurn, counted: None };
@@ -40,7 +40,7 @@ impl<'a> Inputs<'a> {
         Ok(inputs)
     }
 
-    /// The same for rays that each emitter of a table may light.
+    /// The same for rays that are to be combined with every emitter of a table; the first one stands in.
     pub(crate) fn with_table(rays: &Rays<'a>, table: &[Emitter], media: &Media<'a>) -> Result<Self, Error> {
         let [first, ..] = table else { return Err(Error::Empty { field: "table" }) };
         Self::new(rays, &Emitters::one(*first), media)
@@ -52,7 +52,7 @@ impl<'a> Inputs<'a> {
         Self { rays, emitters, media, given, per_ray: 1, order: Order::ByTurn, counted: None }
     }
 
-    /// The same with `given`, if its length is that of the batch or a multiple; `name` is what it is called.
+    /// The same with the numbers `given`, if their length is that of the batch or a multiple; errors call them `name`.
     pub(crate) fn with(self, given: &'a [f32], name: &'static str) -> Result<Self, Error> {
         let (length, expected) = (given.len(), self.len());
         let per_ray = length.checked_div(expected).unwrap_or(1);
@@ -69,12 +69,12 @@ impl<'a> Inputs<'a> {
         Error::unless_length(field, column.len(), self.len())
     }
 
-    /// `Ok` if `column` has the length of what was given.
+    /// `Ok` if `column` has the length of the numbers given.
     pub(crate) fn check_given(&self, field: &'static str, column: &[f32]) -> Result<(), Error> {
         Error::unless_length(field, column.len(), self.given.len())
     }
 
-    /// `Ok` if there are as many output columns as the media have channels; `field` is what they are called.
+    /// `Ok` if there are as many output columns as the media have channels; errors call them `field`.
     pub(crate) fn check_channels(&self, field: &'static str, channels: usize) -> Result<(), Error> {
         let expected = self.media.channels();
         let error = Error::Channels { field, index: None, channels, expected };
@@ -90,12 +90,12 @@ impl<'a> Inputs<'a> {
         self.rays.len()
     }
 
-    /// How many values are written for them.
+    /// The number of output values.
     pub(crate) fn values(&self) -> usize {
         self.len() * self.per_ray
     }
 
-    /// The rays of `range` alone.
+    /// Only the rays of `range`.
     pub(crate) fn slice(&self, range: Range<usize>) -> Self {
         let given = self.given.get(range.start * self.per_ray..range.end * self.per_ray).unwrap_or_default();
         let emitters = self.emitters.part(range.clone());
@@ -111,30 +111,30 @@ impl<'a> Inputs<'a> {
         Inputs { emitters, ..*self }
     }
 
-    /// The values of `range` alone, of one ray.
+    /// Only the numbers of `range`, of one ray.
     pub(crate) fn of_one_ray(&self, range: Range<usize>) -> Self {
         let per_ray = range.len();
         Self { given: self.given.get(range).unwrap_or_default(), per_ray, ..*self }
     }
 
-    /// The same rays with other values, those of a turn next to each other.
+    /// The same rays with other numbers, those of a turn next to each other.
     pub(crate) fn by_turn(&self, given: &'a [f32], per_ray: usize) -> Self {
         Self { given, per_ray, order: Order::ByTurn, ..*self }
     }
 
-    /// The same with some lanes that count.
+    /// The same, where only `lanes` are counted.
     pub(crate) fn counting(self, lanes: Range<usize>) -> Self {
         Self { counted: Some([lanes.start, lanes.end]), ..self }
     }
 
-    /// Which ones of so many lanes count.
+    /// The lanes that are counted, of a group of `lanes` lanes.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn counted(&self, lanes: usize) -> Range<usize> {
         let [start, end] = self.counted.unwrap_or([0, lanes]);
         start..end.min(lanes)
     }
 
-    /// Some turns that follow each other, of a block whose first group is given, with so many lanes.
+    /// A run of turns of a block with the first group `first`, with `lanes` lanes per group.
     pub(crate) fn run<'r>(&self, turns: &'r [Turn], first: usize, lanes: usize) -> Run<'r> {
         Run { turns, first, lanes, per_ray: self.per_ray, order: self.order }
     }

@@ -1,27 +1,27 @@
-//! The columns that a call writes, and how they are split.
+//! The output columns of a call, and their division into parts.
 
 use super::runs::RunPad;
 use super::{Pad, Run};
 use crate::simd::MOST_LANES;
 use core::ops::Range;
 
-/// The columns that a call writes, wherever they are.
+/// The output columns of a task.
 pub(crate) trait Outputs {
     type At<'a>: Send;
 
-    /// Their first `k` values, and the rest.
+    /// The first `k` values, and the rest.
     fn split_at<'a>(out: Self::At<'a>, k: usize) -> (Self::At<'a>, Self::At<'a>);
 
-    /// Those of `range`, borrowed.
+    /// The values of `range`, borrowed.
     fn part<'b>(out: &'b mut Self::At<'_>, range: Range<usize>) -> Self::At<'b>;
 
-    /// Has `write` write to pads, and takes from there as many values as there are.
+    /// Calls `write` with pads, and copies from these as many values as the columns have.
     fn by_pads<R>(out: Self::At<'_>, write: impl FnOnce(Self::At<'_>) -> R) -> R;
 }
 
-/// Those of a task that has several values for a ray.
+/// The output columns of a task that may have several values per ray.
 pub(crate) trait OfRuns: Outputs {
-    /// Has `write` write the values of a run, which for it lie next to each other.
+    /// Calls `write` with columns in which the values of a run lie next to each other.
     fn of_run<R>(out: &mut Self::At<'_>, run: Run<'_>, write: impl FnOnce(Self::At<'_>) -> R) -> R;
 }
 
@@ -56,10 +56,10 @@ impl OfRuns for Column {
     }
 }
 
-/// Some columns, of which some are wanted.
+/// `N` optional columns.
 pub(crate) struct Columns<const N: usize>;
 
-/// The first ones of `N` columns.
+/// The given columns as the first ones of `N` optional columns.
 pub(crate) fn columns<const N: usize, const C: usize>(given: [&mut [f32]; C]) -> [Option<&mut [f32]>; N] {
     let mut given = given.into_iter();
     [(); N].map(|()| given.next())
@@ -114,7 +114,7 @@ impl<const N: usize> OfRuns for Columns<N> {
     }
 }
 
-/// Which entry of a table was chosen for each ray, and with what probability.
+/// The entry of a table that was chosen for each ray, and its probability.
 pub(crate) struct Choices;
 
 impl Outputs for Choices {

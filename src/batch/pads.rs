@@ -1,16 +1,16 @@
-//! Columns for one lane group, made of fewer rays than it has lanes.
+//! Columns for one lane group, filled from fewer rays than it has lanes.
 
 use super::media::Kind;
 use super::source::Source;
 use super::{Emitters, Inputs, Media, Rays, emitters, media};
 use crate::simd::MOST_LANES;
 
-/// As many values as the lanes of every backend need, or more.
+/// A value for each lane of a group of any backend.
 pub(crate) type Pad = [f32; MOST_LANES];
 
 const NOTHING: Pad = [0.0; MOST_LANES];
 
-/// What copies of the columns of a few rays are made in.
+/// Storage for copies of the columns of a few rays.
 pub(crate) struct Pads {
     rays: [Pad; 8],
     emitters: SourcePads<{ emitters::COLUMNS }>,
@@ -20,14 +20,14 @@ pub(crate) struct Pads {
 }
 
 impl Pads {
-    /// Nothing yet.
+    /// Empty storage.
     #[inline]
     pub(crate) fn new() -> Self {
         let (emitters, cones) = (SourcePads::new(), SourcePads::new());
         Self { rays: [NOTHING; 8], emitters, cones, media: SourcePads::new(), channels: SourcePads::new() }
     }
 
-    /// A lane group of so many lanes: the rays of `inputs` one after the other, then the first one again.
+    /// A group of `lanes` lanes: the rays of `inputs`, then copies of the first one.
     pub(crate) fn of_rays<'a>(&'a mut self, inputs: &Inputs<'a>, lanes: usize) -> Inputs<'a> {
         let Rays { origin: [ox, oy, oz], direction: [dx, dy, dz], t_min, t_max } = inputs.rays;
         let [ox, oy, oz, dx, dy, dz, t_min, t_max] =
@@ -49,7 +49,7 @@ impl Pads {
     }
 }
 
-/// Those of emitters or media.
+/// The pads of emitters or media.
 struct SourcePads<const K: usize> {
     columns: Option<[Pad; K]>,
     index: Option<[u32; MOST_LANES]>,
@@ -83,7 +83,7 @@ fn filled<'a, const K: usize>(pads: &'a mut [Pad; K], columns: [&[f32]; K], lane
     pads.each_ref().map(|pad| &pad[..lanes])
 }
 
-/// The values of a column, then the first one again.
+/// Fills a pad with the values of a column, then with copies of the first one.
 #[inline]
 fn fill<T: Copy>(pad: &mut [T; MOST_LANES], column: &[T]) {
     pad.fill(column[0]);
@@ -92,7 +92,7 @@ fn fill<T: Copy>(pad: &mut [T; MOST_LANES], column: &[T]) {
     }
 }
 
-/// The first values of a column, and zeros if there are fewer.
+/// The first values of a column, then zeros.
 #[inline]
 pub(crate) fn first_values(column: &[f32]) -> Pad {
     let mut pad = NOTHING;

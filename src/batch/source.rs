@@ -1,13 +1,13 @@
-//! Where each ray's emitter or medium comes from: one for all, columns, or a table with an index per ray.
+//! The source of each ray's emitter or medium: one for all, columns, or a table with an index per ray.
 
 use super::{MOST_RAYS, cut};
 use crate::Error;
 use crate::simd::{Isa, Lanes};
 use core::ops::Range;
 
-/// A thing that is described by `K` numbers.
+/// An emitter or a medium, described by `K` numbers.
 pub(crate) trait Entry<const K: usize>: Copy {
-    /// What its columns are called in an error, and a table of it, and the index into that.
+    /// The names in errors of its columns, of a table, and of the index into a table.
     const COLUMNS: [&'static str; K];
     const TABLE: &'static str;
     const INDEX: &'static str;
@@ -23,12 +23,12 @@ pub(crate) enum Source<'a, T, const K: usize> {
     One(T),
     /// As columns of the batch's length.
     Each([&'a [f32]; K]),
-    /// Number `index` of a table; one out of range makes the ray invalid.
+    /// An index into a table; an index out of range makes the ray invalid.
     Table { table: &'a [T], index: &'a [u32] },
 }
 
 impl<'a, T: Entry<K>, const K: usize> Source<'a, T, K> {
-    /// `Ok` if there is one for each of so many rays.
+    /// `Ok` if there is one for each of `rays` rays.
     pub(super) fn check(&self, rays: usize) -> Result<(), Error> {
         match *self {
             Self::One(_) => Ok(()),
@@ -41,7 +41,7 @@ impl<'a, T: Entry<K>, const K: usize> Source<'a, T, K> {
         }
     }
 
-    /// That of the rays of `range`.
+    /// The source of the rays of `range`.
     pub(super) fn part(&self, range: Range<usize>) -> Self {
         match *self {
             Self::One(one) => Self::One(one),
@@ -50,12 +50,12 @@ impl<'a, T: Entry<K>, const K: usize> Source<'a, T, K> {
         }
     }
 
-    /// Whether rays differ.
+    /// Whether rays may differ.
     pub(crate) fn differs(&self) -> bool {
         !matches!(self, Self::One(_))
     }
 
-    /// Those of the rays of `range`, at most [`MOST_RAYS`]; what a table has for them is gathered in `place`.
+    /// The rows of the rays of `range`, at most [`MOST_RAYS`]; entries of a table are gathered in `place`.
     pub(crate) fn rows<'r>(&self, range: Range<usize>, place: &'r mut Gathered<K>) -> Rows<'r, K>
     where
         'a: 'r,
@@ -68,21 +68,21 @@ impl<'a, T: Entry<K>, const K: usize> Source<'a, T, K> {
     }
 }
 
-/// Room for the columns of some rays.
+/// Storage for the columns of some rays.
 pub(crate) struct Gathered<const K: usize>(Option<[[f32; MOST_RAYS]; K]>);
 
 impl<const K: usize> Gathered<K> {
-    /// Nothing yet.
+    /// Empty storage.
     pub(crate) fn new() -> Self {
         Self(None)
     }
 
-    /// The entries of `table` that `index` names, as columns; NaN where there is none.
+    /// The entries `table[index]` as columns; NaN for an index out of range.
     fn gather<T: Entry<K>>(&mut self, table: &[T], index: &[u32]) -> [&[f32]; K] {
         self.fill(index.len(), |ray| table.get(index[ray] as usize).map_or([f32::NAN; K], T::row))
     }
 
-    /// A row for each of so many rays, as columns.
+    /// A row for each of `rays` rays, as columns.
     #[inline]
     pub(super) fn fill(&mut self, rays: usize, row: impl Fn(usize) -> [f32; K]) -> [&[f32]; K] {
         let columns = match &mut self.0 {
@@ -98,7 +98,7 @@ impl<const K: usize> Gathered<K> {
     }
 }
 
-/// Emitters or media of some rays, as numbers.
+/// The numbers of the emitters or media of some rays.
 #[derive(Clone, Copy)]
 pub(crate) enum Rows<'r, const K: usize> {
     /// The same for all.
@@ -107,7 +107,7 @@ pub(crate) enum Rows<'r, const K: usize> {
 }
 
 impl<'r, const K: usize> Rows<'r, K> {
-    /// Those of the rays of `range`.
+    /// The rows of the rays of `range`.
     pub(crate) fn part(&self, range: Range<usize>) -> Self {
         match *self {
             Self::One(row) => Self::One(row),
@@ -123,7 +123,7 @@ impl<'r, const K: usize> Rows<'r, K> {
         }
     }
 
-    /// Their lane groups. Spelt out, as a closure that is not inlined costs more than the load.
+    /// The rows in lane groups. No closure: one that is not inlined costs more than the load.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn groups<I: Isa>(&self, isa: I) -> RowGroups<'r, I, K> {
         match *self {
@@ -158,7 +158,7 @@ pub(crate) enum RowGroups<'r, I: Isa, const K: usize> {
 }
 
 impl<I: Isa, const K: usize> RowGroups<'_, I, K> {
-    /// Whether rays differ.
+    /// Whether rays may differ.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn differ(&self) -> bool {
         matches!(self, Self::Each(_))

@@ -1,21 +1,27 @@
-//! The cone of a spot along a ray: where the ray is inside, in f64, and how the intensity falls off there.
+//! The cone of a spot along a ray: the lit interval, in f64, and the falloff of the intensity there.
 //!
-//! With `a` the unit axis, `c = cos_outer`, `m = a.(x - y) = alpha_h + beta t'` and `G = a.(f x d)` of the foot `f`,
+//! With `a` the unit axis, `c = cos_outer`, `m = a.(x - y) = alpha_h + beta t'` and `G = a.(f x d)` of the foot `f`, the equations
+//! of `docs/mathematics.md`, section 8, times powers of `h`: `hs` is `h sigma`, `G` is `h gamma`, `R` is `h c_max`.
 //!
 //! ```text
-//! (hs)^2 = (1 - c^2) h^2 - G^2             R^2 = alpha_h^2 + beta^2 h^2
-//! H_1 = alpha_h c + beta hs                B_1 = beta c h^2 - alpha_h hs
-//! H_2 = alpha_h c - beta hs                B_2 = beta c h^2 + alpha_h hs
-//! before = (H_1 t' - B_1)/R                after = (B_2 - H_2 t')/R
-//! cos phi - c = before after / (r (m + c r))
+//! (hs)^2 = (1 - c^2) h^2 - G^2             R^2 = alpha_h^2 + beta^2 h^2     (8.3)
+//! H_1 = alpha_h c + beta hs                B_1 = beta c h^2 - alpha_h hs    below, t'_lo = B_1/H_1: (8.4)
+//! H_2 = alpha_h c - beta hs                B_2 = beta c h^2 + alpha_h hs    above, t'_hi = B_2/H_2: (8.5)
+//! before = (H_1 t' - B_1)/R                after = (B_2 - H_2 t')/R         D_1, D_2: (8.8), (8.9)
+//! cos phi - c = before after / (r (m + c r))                                (8.10)
+//! S = s^2 (3 - 2 s),  s = (cos phi - c)/(cos_inner - c)                     (8.1)
 //! ```
 //!
-//! The line meets the cone nowhere where `(hs)^2 <= 0`. It is inside from `t' = B_1/H_1` on if `H_1 > 0`, and up to
-//! `t' = B_2/H_2` if `H_2 > 0`; if neither is, only the other half of the double cone is met. Both edges together are
-//! `2 c hs/(c^2 - beta^2)` apart. Nothing cancels in f32, however narrow the cone: `before` and `after` are taken from the end
-//! of the lit interval where they are smaller, and grow from there.
+//! The line misses the cone if `(hs)^2 <= 0`. It is inside from `t' = B_1/H_1` on if `H_1 > 0`, and up to `t' = B_2/H_2` if
+//! `H_2 > 0`; if neither is positive, it meets only the other half of the double cone.
 //!
-//! An emitter on the line has the `h` that it is treated with, and `(hs)^2 = alpha_h^2 + (beta^2 - c^2) h^2`.
+//! Departures from this, and why:
+//!
+//! 1. Two edges of the interval are `2 c hs/(c^2 - beta^2)` apart: not a difference of distances.
+//! 2. `before` and `after` are computed from the end of the lit interval where they are smaller, and grow from there: nothing
+//!    cancels in f32, however narrow the cone.
+//! 3. An emitter on the line has the least `h` of `double`, and `(hs)^2 = alpha_h^2 + (beta^2 - c^2) h^2`.
+//! 4. Lengths are multiplied by 2^40 where `h` is below 1 m: squares of a tiny `h` stay within f32.
 
 use super::double::{Line, excess_of_square, one_over_length};
 use super::{Cosine, End, Lit, Located, RayLanes, TOLERANCE, dot, largest, widen};
@@ -23,7 +29,7 @@ use crate::scene::FARTHEST;
 use crate::simd::math::{reciprocal, reciprocal_near};
 use crate::simd::{Double, Isa, Lanes, Number, none};
 
-/// Spots of a lane group.
+/// The spots of a lane group.
 pub(crate) struct SpotLanes<I: Isa> {
     pub(crate) position: [I::V; 3],
     pub(crate) axis: [I::V; 3],
@@ -32,7 +38,7 @@ pub(crate) struct SpotLanes<I: Isa> {
 }
 
 impl<I: Isa> SpotLanes<I> {
-    /// Which lanes have a cone: two cosines of -1 stand for none.
+    /// Which lanes have a cone: two cosines of -1 mean none.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn is_spot(&self, isa: I) -> I::Mask {
         let all = isa.splat(-1.0);
@@ -45,13 +51,13 @@ impl<I: Isa> SpotLanes<I> {
 pub(crate) struct Ramp<I: Isa> {
     /// Its value at the end where it is smaller: `a` where it rises, else `b`.
     pub(crate) least: I::V,
-    /// By how much it grows from there, per length.
+    /// The growth from there per length.
     pub(crate) slope: I::V,
     pub(crate) rising: I::Mask,
 }
 
 impl<I: Isa> Ramp<I> {
-    /// Between two points with these distances from the ends.
+    /// The value at the point with these distances from the ends.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn between(&self, from_a: I::V, to_b: I::V) -> I::V {
         self.slope.mul_add(I::V::select(self.rising, from_a, to_b), self.least)
@@ -72,13 +78,11 @@ pub(crate) struct Cone<I: Isa> {
 }
 
 impl<I: Isa> Cone<I> {
-    /// `S = s^2 (3 - 2 s)` with `s = (cos phi - cos_outer)/(cos_inner - cos_outer)`, at most 1; 1 without a cone.
-    ///
-    /// `before`, `after` and `m` are there in units of `r`.
+    /// (8.1), (8.10): `S`, given `before`, `after` and `m` over `r`; 1 without a cone.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn falloff(&self, isa: I, before: I::V, after: I::V, m: I::V) -> I::V {
         let c = |x| isa.splat(x);
-        // Where c = 0, m vanishes as `after` does.
+        // If c = 0, m vanishes together with `after`.
         let sum = (m + self.cos_outer).max(c(1e-30));
         let s = (before * (after / sum) * self.inv_fall).min(c(1.0));
         I::V::select(self.hard | !self.is_spot, c(1.0), s * s * (c(3.0) - (s + s)))
@@ -92,7 +96,7 @@ fn select<I: Isa>(isa: I, mask: I::Mask, yes: I::Double, no: I::Double) -> I::Do
     yes.mul_add(I::V::only(mask, one).widen(), no * I::V::only(!mask, one).widen())
 }
 
-/// The root and its reciprocal; a tiny value and a large one where there is none.
+/// The root and its reciprocal; a tiny value and a large one for 0.
 #[cfg_attr(optimized, inline(always))]
 fn root<I: Isa>(isa: I, squared: I::Double) -> (I::Double, I::Double) {
     // One Newton step of the reciprocal.
@@ -103,7 +107,7 @@ fn root<I: Isa>(isa: I, squared: I::Double) -> (I::Double, I::Double) {
 }
 
 impl<I: Isa> Line<I> {
-    /// Its direction, of unit length.
+    /// The direction, of unit length.
     #[cfg_attr(optimized, inline(always))]
     fn direction(&self) -> [I::Double; 3] {
         [self.d[0] * self.unit, self.d[1] * self.unit, self.d[2] * self.unit]
@@ -118,8 +122,8 @@ impl<I: Isa> Line<I> {
         least * least
     }
 
-    /// The foot with all its digits, also where it is much nearer to the emitter than the ray's origin is, and how far along the
-    /// ray it is from where the perpendicular meets it.
+    /// The foot with all its digits, also where it is much nearer to the emitter than the ray's origin is, and the distance along
+    /// the ray by which it misses the exact foot.
     #[cfg_attr(optimized, inline(always))]
     fn exact_foot(&self) -> ([I::Double; 3], I::Double) {
         let Self { d, e, .. } = *self;
@@ -136,7 +140,7 @@ impl<I: Isa> Line<I> {
     }
 }
 
-/// What a spot lights.
+/// The geometry of the spots of a lane group.
 #[cfg_attr(optimized, inline(always))]
 pub(crate) fn locate<I: Isa>(isa: I, ray: &RayLanes<I>, spot: &SpotLanes<I>) -> (Located<I>, Cone<I>) {
     let c = |x| isa.splat(x);
@@ -149,7 +153,7 @@ pub(crate) fn locate<I: Isa>(isa: I, ray: &RayLanes<I>, spot: &SpotLanes<I>) -> 
     let q = excess_of_square(isa, a);
     let over_a = one_over_length(isa, q);
 
-    // Lengths in units that keep squares within f32 when h is tiny.
+    // Departure 4.
     let foot_squared = (-rho).mul_add(rho, dot(f, f));
     let h_squared = foot_squared.max(line.least_h_squared(isa));
     let unit = I::V::select(I::V::narrow(h_squared).lt(c(1.0)), c((1u64 << 40) as f32), c(1.0)).widen();
@@ -191,7 +195,7 @@ pub(crate) fn locate<I: Isa>(isa: I, ray: &RayLanes<I>, spot: &SpotLanes<I>) -> 
     let length = I::V::select(clip_a | clip_b, I::V::narrow(end - start), whole);
     let between = clip_a & clip_b & zero.lt(between_edges);
     let length = I::V::select(between, between_edges, length).min(whole);
-    // Neither end is where c and beta are 0: the ray keeps its side of the plane.
+    // Both slopes are 0 if c and beta are: the ray then stays on its side of the plane.
     let ahead = opens[0] | opens[1] | zero.lt(I::V::narrow(alpha_h));
     let lit = met & ahead & zero.lt(I::V::narrow(end - start));
     let length = I::V::only(lit, length);
@@ -225,10 +229,10 @@ pub(crate) fn locate<I: Isa>(isa: I, ray: &RayLanes<I>, spot: &SpotLanes<I>) -> 
     ((of_lit, cosine, foot), Cone { before, after, cos_outer, inv_fall, hard, is_spot: spot.is_spot(isa) })
 }
 
-/// Two different cosines in f32 differ by more.
+/// Less than the difference of any two different f32 cosines.
 const LEAST_FALL: f32 = 1e-8;
 
-/// The lit interval in `t'`, and in what units ramps are given: slopes in `unit`, offsets in its square.
+/// The lit interval in `t'`, and the units of ramps: slopes are in `unit`, offsets in its square.
 struct Scaled<I: Isa> {
     start: I::Double,
     end: I::Double,
@@ -238,7 +242,7 @@ struct Scaled<I: Isa> {
 }
 
 impl<I: Isa> Scaled<I> {
-    /// `(slope t' - offset)/R` from the end where it is smaller; it is 0 at an end that is its edge.
+    /// (8.8), (8.9): `(slope t' - offset)/R` from the end where it is smaller, exactly 0 at an end that is its edge.
     #[cfg_attr(optimized, inline(always))]
     fn ramp(&self, isa: I, slope: I::Double, offset: I::Double, [edge_a, edge_b]: [I::Mask; 2]) -> Ramp<I> {
         let zero = isa.splat(0.0);
@@ -252,8 +256,8 @@ impl<I: Isa> Scaled<I> {
     }
 }
 
-/// `c^2 - beta^2` of unit vectors, of which `beta` is the product: by `1 - |beta|`, which is half the square of their difference
-/// or of their sum, and has as many digits as the angle between a ray and the side of a narrow cone needs.
+/// `c^2 - beta^2`, given the unit vectors of which `beta` is the scalar product: from `1 - |beta|`, half the square of their
+/// difference or sum, which keeps the digits that the angle between a ray and the side of a narrow cone needs.
 #[cfg_attr(optimized, inline(always))]
 fn difference_of_squares<I: Isa>(
     isa: I,
@@ -271,8 +275,8 @@ fn difference_of_squares<I: Isa>(
     (to_one - (one - outer)) * (outer + (one - to_one))
 }
 
-/// `H_1` and `H_2`, sum and difference; the smaller one by the product `R^2 (c^2 - beta^2)` of both, as next to a ray along the
-/// side of the cone it has no digits as a difference.
+/// `H_1` and `H_2`, the sum and the difference of `along` and `across`. The smaller one is computed from their product
+/// `R^2 (c^2 - beta^2)`: next to a ray along the side of the cone the difference has no digits.
 #[cfg_attr(optimized, inline(always))]
 fn slopes<I: Isa>(isa: I, along: I::Double, across: I::Double, product: I::Double) -> [I::Double; 2] {
     let (zero, one) = (isa.splat(0.0), isa.splat(1.0));
@@ -284,8 +288,8 @@ fn slopes<I: Isa>(isa: I, along: I::Double, across: I::Double, product: I::Doubl
     [select(isa, alike, large, small), select(isa, alike, small, large)]
 }
 
-/// `t'` where a ramp is 0, if it is there at all \[m\]: with a Newton step after the division, as what is lit may be as short as
-/// what it leaves. Far beyond every ray it is cut.
+/// `t'` where a ramp is 0 \[m\], with a Newton step after the division, as a lit interval may be as short as the division's error;
+/// clamped to [`FAR`].
 #[cfg_attr(optimized, inline(always))]
 fn edge<I: Isa>(isa: I, offset: I::Double, slope: I::Double, unit: I::Double) -> I::Double {
     let near = (isa.splat(1.0) / I::V::narrow(slope).max(isa.splat(1e-30))).widen();

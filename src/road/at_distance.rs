@@ -1,4 +1,4 @@
-//! What a density is at given distances: itself, or its distribution function.
+//! The pdf or the CDF of a density at given distances.
 
 use super::blocks::{Block, SetUps, Tally, Wanted, for_each_block, for_each_run, set_up};
 use super::{Method, OfDensity, Task, by_strategy};
@@ -8,7 +8,7 @@ use crate::density::{Density, Kind, SetUp};
 use crate::geometry::{Geometry, Point};
 use crate::simd::{Isa, Lanes, Machine, Room, none};
 
-/// What is asked at a distance.
+/// A quantity of a density at a distance.
 pub(crate) trait Question {
     fn answer<I: Isa, D: Density<I>>(isa: I, density: &D, geometry: Geometry<'_, I>, point: &Point<I>) -> I::V;
 }
@@ -64,7 +64,7 @@ impl<Q: Question> OfDensity for Q {
     }
 }
 
-/// The answers for some turns at the distances `t`.
+/// Computes the quantity for some turns at the distances `t`.
 fn answers<I: Isa, D: Kind, Q: Question>(
     isa: I,
     block: &Block<'_, I>,

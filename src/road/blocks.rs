@@ -1,8 +1,8 @@
-//! The blocks of a chunk: a few lane groups that go through the stations together, each station a short pass over them.
+//! The blocks of a chunk: a few lane groups, with short passes over all of them.
 //!
-//! A pass reads the records of the one before and writes its own; they stay in the nearest caches. The passes are
+//! A pass reads the records of the pass before and writes its own; they stay in the nearest caches. The passes are
 //!
-//! 1. geometry, as much of it as is asked for: the lit interval, then the foot of the perpendicular, and hard lanes in f64;
+//! 1. geometry, the part that is needed: the lit interval, then the foot of the perpendicular, and hard lanes in f64;
 //! 2. set-up, inversion and output of a density, in one pass for one variate per ray, else in one each;
 //! 3. weights, the same for all densities.
 
@@ -26,23 +26,23 @@ static ONE_TURN: [Turn; GROUPS] = {
     turns
 };
 
-/// Some lane groups of a chunk, located.
+/// Some lane groups of a chunk, with their geometry.
 pub(super) struct Block<'b, I: Isa> {
     /// The chunk.
     pub(super) inputs: &'b Inputs<'b>,
-    /// Which ones of the chunk they are.
+    /// The numbers of the groups in the chunk.
     pub(super) groups: Range<usize>,
-    /// Their media.
+    /// The media of the groups.
     pub(super) media: MediaRows<'b>,
     lits: &'b [Lit<I>],
     cosines: &'b [Cosine<I>],
     feet: &'b [Foot<I>],
-    /// Empty where there are no spots.
+    /// Empty if there are no spots.
     cones: &'b [Cone<I>],
 }
 
 impl<I: Isa> Block<'_, I> {
-    /// The one turn of every group, where a ray has one value.
+    /// The only turn of every group, if a ray has one value.
     pub(super) fn one_turn(&self) -> Run<'static> {
         self.inputs.run(&ONE_TURN[..self.groups.len()], self.groups.start, I::V::N)
     }
@@ -64,7 +64,7 @@ impl<I: Isa> Block<'_, I> {
     }
 }
 
-/// Those of the lane groups of a block.
+/// The geometries of a block.
 pub(super) struct Geometries<'b, I: Isa> {
     lits: &'b [Lit<I>],
     cosines: &'b [Cosine<I>],
@@ -73,7 +73,7 @@ pub(super) struct Geometries<'b, I: Isa> {
 }
 
 impl<I: Isa> Geometries<'_, I> {
-    /// That of a record.
+    /// The geometry of a record.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn get(&self, record: usize) -> Geometry<'_, I> {
         let (lit, cosine, foot) = (&self.lits[record], &self.cosines[record], &self.feet[record]);
@@ -81,21 +81,21 @@ impl<I: Isa> Geometries<'_, I> {
     }
 }
 
-/// What a task wants of the geometry.
+/// What a task needs of the geometry.
 #[derive(Clone, Copy)]
 pub(super) struct Wanted {
     pub(super) precision: Precision,
     pub(super) extent: Extent,
-    /// How many records of its density fit.
+    /// The largest number of set-ups at a time.
     pub(super) records: usize,
 }
 
-/// How many lane groups a block has, unless the chunk ends.
+/// The number of lane groups of a block, unless the chunk ends.
 pub(super) fn groups_at_once<I: Isa>() -> usize {
     (MOST_RAYS / I::V::N).clamp(1, GROUPS)
 }
 
-/// The blocks of a chunk, each visited once, cut where the records of the density are large.
+/// Calls `visit` for each block of a chunk; blocks are cut where the records of the density are large.
 pub(super) fn for_each_block<I: Isa>(
     isa: I,
     inputs: &Inputs<'_>,
@@ -108,7 +108,7 @@ pub(super) fn for_each_block<I: Isa>(
     isa.vectorize::<Foot<I>, _>(
         #[cfg_attr(optimized, inline(always))]
         || {
-            // Those that are not asked for.
+            // Placeholders for what is not needed.
             if wanted.extent == Extent::Lit {
                 let none = Foot::none(isa);
                 places.feet.fill(at_once.min(count), |_| none);
@@ -120,7 +120,7 @@ pub(super) fn for_each_block<I: Isa>(
         },
     );
     let locate = match (wanted.extent, wanted.precision) {
-        // What the rounding of a product leaves is known by a fused addition alone.
+        // The f32 geometry needs the remainder of a product, which only a fused multiply-add gives.
         (Extent::Lit, _) if !I::FUSED => in_double::<I, false, false>,
         (Extent::Foot, _) if !I::FUSED => in_double::<I, true, false>,
         (Extent::Cosine, _) if !I::FUSED => in_double::<I, true, true>,
@@ -163,7 +163,7 @@ pub(super) fn for_each_block<I: Isa>(
     }
 }
 
-/// Place for the records of a block's geometry.
+/// Storage for the records of a block's geometry.
 struct Places<I: Isa> {
     lits: Records<Lit<I>>,
     /// `|d| - 1`.
@@ -181,7 +181,7 @@ impl<I: Isa> Places<I> {
     }
 }
 
-/// The turns of a block, at most as many at a time as there is place for records.
+/// Calls `visit` for runs of the turns of a block, each at most as long as there is storage for records.
 pub(super) fn for_each_run<I: Isa>(block: &Block<'_, I>, mut visit: impl FnMut(Run<'_>)) {
     let Block { inputs, groups, .. } = block;
     let mut turns = [Turn::default(); GROUPS];
@@ -199,12 +199,12 @@ pub(super) fn for_each_run<I: Isa>(block: &Block<'_, I>, mut visit: impl FnMut(R
     visit(inputs.run(&turns[..count], groups.start, I::V::N));
 }
 
-/// What became of the values of a chunk, summed in the lanes: whole numbers that f32 can count.
+/// The counts of a chunk, summed in the lanes: whole numbers that f32 can hold.
 pub(super) struct Tally<I: Isa> {
     valid: I::V,
     sampled: I::V,
     bisected: I::V,
-    /// What a value counts: 1 in the lanes that count, 0 in others.
+    /// The weight of a value: 1 in lanes that are counted, 0 in others.
     one: I::V,
 }
 
@@ -221,7 +221,7 @@ impl<I: Isa> Tally<I> {
         )
     }
 
-    /// One more value for each lane: `valid` with what was given, of these `sampled`, and of these `bisected`.
+    /// Adds a value for each lane: whether it is `valid`, and if so `sampled`, and if so `bisected`.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn add(&mut self, valid: I::Mask, sampled: I::Mask, bisected: I::Mask) {
         self.valid = self.valid + I::V::only(valid, self.one);
@@ -246,10 +246,10 @@ impl<I: Isa> Tally<I> {
     }
 }
 
-/// Rays, variates, `t` and `pdf` are prefetched so many lane groups before they are read or written.
+/// The number of lane groups by which rays, variates, `t` and `pdf` are prefetched before they are read or written.
 pub(super) const AHEAD: usize = 2 * GROUPS;
 
-/// The geometry of some groups in f32, that of hard lanes again in f64.
+/// Computes the geometry of some groups in f32, and of their hard lanes in f64.
 fn in_single<I: Isa, const EXACT: bool, const FOOT: bool, const COSINE: bool, const DIFFER: bool>(
     isa: I,
     inputs: &Inputs<'_>,
@@ -257,7 +257,7 @@ fn in_single<I: Isa, const EXACT: bool, const FOOT: bool, const COSINE: bool, co
     groups: Range<usize>,
     places: &mut Places<I>,
 ) {
-    // Which lanes are easy in every group, and which in any.
+    // Whether all lanes are easy, and whether any is.
     let [mut every, any] = isa.vectorize::<Foot<I>, _>(
         #[cfg_attr(optimized, inline(always))]
         || {
@@ -294,7 +294,7 @@ fn in_single<I: Isa, const EXACT: bool, const FOOT: bool, const COSINE: bool, co
     if !any {
         return in_double::<I, FOOT, COSINE>(isa, inputs, emitters, groups, places);
     }
-    // Apart: the two together do not fit the registers.
+    // A pass of its own: both together do not fit the registers.
     if FOOT {
         every = find_feet::<I, EXACT, COSINE, DIFFER>(isa, inputs, emitters, groups.start, places);
     }
@@ -303,7 +303,7 @@ fn in_single<I: Isa, const EXACT: bool, const FOOT: bool, const COSINE: bool, co
     }
 }
 
-/// The feet of the perpendiculars after the lit intervals; whether all lanes are easy.
+/// Computes the feet of the perpendiculars after the lit intervals; returns whether all lanes are easy.
 fn find_feet<I: Isa, const EXACT: bool, const COSINE: bool, const DIFFER: bool>(
     isa: I,
     inputs: &Inputs<'_>,
@@ -338,7 +338,7 @@ fn find_feet<I: Isa, const EXACT: bool, const COSINE: bool, const DIFFER: bool>(
     )
 }
 
-/// Hard lanes in f64: those that are not valid in f32.
+/// Computes hard lanes, those that are not valid in f32, in f64.
 #[cold]
 fn rescue<I: Isa, const FOOT: bool, const COSINE: bool>(
     isa: I,
@@ -376,7 +376,7 @@ fn rescue<I: Isa, const FOOT: bool, const COSINE: bool>(
     );
 }
 
-/// The geometry of some groups in f64.
+/// Computes the geometry of some groups in f64.
 fn in_double<I: Isa, const FOOT: bool, const COSINE: bool>(
     isa: I,
     inputs: &Inputs<'_>,
@@ -416,7 +416,7 @@ fn in_double<I: Isa, const FOOT: bool, const COSINE: bool>(
     );
 }
 
-/// The geometry of spots, in f64, in place of that of other emitters.
+/// Computes the geometry of spots in f64, and replaces that of other emitters in their lanes.
 fn in_cones<I: Isa>(
     isa: I,
     inputs: &Inputs<'_>,
@@ -443,10 +443,10 @@ fn in_cones<I: Isa>(
     );
 }
 
-/// Place for the set-ups of a block.
+/// Storage for the set-ups of a block.
 pub(super) type SetUps<I, D> = <<D as Kind>::On<I> as Density<I>>::SetUps;
 
-/// The densities of a block.
+/// Sets up the densities of a block.
 pub(super) fn set_up<'r, I: Isa, Home, D: Density<I>>(
     isa: I,
     block: &Block<'_, I>,

@@ -1,11 +1,17 @@
-//! An emitter of a table for each ray, in proportion to its share of the light.
+//! The choice of an emitter of a table for each ray, in proportion to its share of the light.
 //!
-//! A block of rays goes past the emitters, one after the other, and the shares are summed in a few slots. With `S` the sum of
-//! all, the chosen emitter is the last lit one before which the sum is below `u S`: it increases with `u`. A table that is
-//! longer than there are slots has several emitters in each; those of the chosen slot are then asked once more.
+//! Equations of `docs/mathematics.md`, section 10, with the integrals `L_i` of `integral/rule.rs`:
 //!
-//! A reservoir would need no slots. But it takes new bits of the variate at every emitter, which f32 does not have, and its
-//! choice does not increase with `u`.
+//! ```text
+//! P_i = w_i L_i / Sum_j w_j L_j                                                        (10.1)
+//! i: the last emitter with w_i L_i > 0 before which the sum is below u Sum_j w_j L_j   (10.2)
+//! ```
+//!
+//! For a block of rays, `sum` adds the shares `w_i L_i` of all emitters in 32 slots, `search` finds the slot by (10.2), `refine`
+//! finds the emitter within the slot if a slot has several, and `write` writes (10.1).
+//!
+//! The slots keep the choice increasing with `u`. A reservoir would need none, but it takes new bits of the variate at every
+//! emitter, which f32 does not have, and its choice does not increase with `u`.
 
 use super::blocks::{Tally, for_each_block, groups_at_once};
 use super::radiance::{Integrated, Quadrature, for_each_radiance, of_integral};
@@ -17,15 +23,15 @@ use crate::simd::{GROUPS, Isa, Kernel, Lanes, Machine, Number, Records, Room, no
 use crate::{Nodes, Precision};
 use core::marker::PhantomData;
 
-/// Sums of shares that a ray has: as many as keep those of a block within a core's cache.
+/// The number of slots of a ray: the sums of a block then stay in a core's cache.
 const SLOTS: usize = 32;
 
-/// Some emitters, how they are weighted, and by which integral.
+/// The emitters, their weights, and the rule of the integral.
 #[derive(Clone, Copy)]
 pub(crate) struct Lights<'t> {
     pub(crate) quadrature: Quadrature,
     pub(crate) table: &'t [Emitter],
-    /// As many.
+    /// One weight per emitter.
     pub(crate) weights: &'t [f32],
 }
 
@@ -46,7 +52,7 @@ impl<'t> Task for Choose<'t> {
     }
 }
 
-/// Its kernel for a number of nodes.
+/// The kernel for a number of nodes.
 struct OnGroups<'a, 't, const K: usize> {
     lights: Lights<'t>,
     inputs: &'a Inputs<'a>,
@@ -79,22 +85,22 @@ impl<const K: usize> Kernel for OnGroups<'_, '_, K> {
 /// The sums of all slots of all lane groups of a block, slot by slot.
 type Sums<I> = Records<<I as Isa>::Double, { SLOTS * GROUPS }>;
 
-/// How far the choice of a lane group is.
+/// The state of the search of a lane group.
 #[derive(Clone, Copy)]
 struct Search<I: Isa> {
     /// The sum of all shares; NaN for an invalid ray.
     total: I::V,
-    /// `u` times that; NaN where `u` is none.
+    /// `u` times `total`; NaN if `u` is not in `[0, 1]`.
     target: I::V,
-    /// The sum of those that were offered.
+    /// The sum of the shares offered so far.
     before: I::Double,
-    /// What was taken last, a whole number, and its share, which is 0 before.
+    /// The number taken last, and its share; the share is 0 if none was taken.
     taken: I::V,
     share: I::V,
 }
 
 impl<I: Isa> Search<I> {
-    /// The next one: it is taken if it has a share, unless the sum has reached the target.
+    /// (10.2): offers the next number. It is taken if its share is not 0 and the sum before it is below the target.
     #[cfg_attr(optimized, inline(always))]
     fn offer(&mut self, isa: I, number: I::V, share: I::Double) {
         let zero = isa.splat(0.0);
@@ -107,14 +113,14 @@ impl<I: Isa> Search<I> {
     }
 }
 
-/// At most a block of rays.
+/// The rays of a block, or fewer.
 struct OfBlock<'b, 't, const K: usize> {
     lights: Lights<'t>,
     inputs: &'b Inputs<'b>,
 }
 
 impl<const K: usize> OfBlock<'_, '_, K> {
-    /// How many emitters share a slot.
+    /// The number of emitters of a slot.
     fn per_slot(&self) -> usize {
         self.lights.table.len().div_ceil(SLOTS)
     }
@@ -123,7 +129,7 @@ impl<const K: usize> OfBlock<'_, '_, K> {
         self.inputs.len() / I::V::N
     }
 
-    /// Sums the shares.
+    /// Sums the shares in slots.
     fn sum<I: Isa>(&self, isa: I, sums: &mut Sums<I>) {
         let (groups, slots) = (self.groups::<I>(), self.lights.table.len().div_ceil(self.per_slot()));
         isa.vectorize::<Rule<K>, _>(
@@ -146,7 +152,7 @@ impl<const K: usize> OfBlock<'_, '_, K> {
         }
     }
 
-    /// The shares of one emitter for each ray.
+    /// Calls `visit` with the share of one emitter for each ray.
     fn for_each_share<I: Isa>(
         &self,
         isa: I,
@@ -154,7 +160,7 @@ impl<const K: usize> OfBlock<'_, '_, K> {
         weights: Rows<'_, 1>,
         mut visit: impl FnMut(usize, I::V),
     ) {
-        // The sum of all is finite.
+        // The bound keeps the sum of all shares finite.
         let most = f32::MAX / (2 * self.lights.table.len()) as f32;
         for_each_block(isa, &self.inputs.lit_by(emitters), of_integral(self.precision()), |block| {
             isa.vectorize::<Rule<K>, _>(
@@ -211,7 +217,7 @@ impl<const K: usize> OfBlock<'_, '_, K> {
         );
     }
 
-    /// Finds emitters within the slots. The outputs hold their numbers and weights meanwhile.
+    /// Finds the emitters within the slots. The outputs serve as storage for their numbers and weights.
     fn refine<I: Isa>(
         &self,
         isa: I,
@@ -227,7 +233,7 @@ impl<const K: usize> OfBlock<'_, '_, K> {
                 let (zero, one) = (isa.splat(0.0), isa.splat(1.0));
                 let places = I::groups_mut(weights);
                 for ((record, search), place) in searches.iter_mut().enumerate().zip(places) {
-                    // Of the slots before the one that was taken.
+                    // The sum of the slots before the one taken.
                     (search.before, search.share) = (isa.splat_double(0.0), zero);
                     let mut slot = zero;
                     for of_slot in sums.chunks_exact(groups) {
@@ -243,7 +249,7 @@ impl<const K: usize> OfBlock<'_, '_, K> {
             *index = (*slot as usize * per_slot) as u32;
         }
         for offset in 0..per_slot {
-            // Beyond the table there is none, and then nobody asks for it.
+            // Emitters beyond the table have the weight 0, and are never taken.
             for (weight, index) in weights.iter_mut().zip(&*index) {
                 *weight = self.lights.weights.get(*index as usize).copied().unwrap_or(0.0);
             }
@@ -261,11 +267,11 @@ impl<const K: usize> OfBlock<'_, '_, K> {
             );
             index.iter_mut().for_each(|index| *index += 1);
         }
-        // Back to the first emitter of each slot, for the offset is what was taken.
+        // Back to the first emitter of each slot: the search has the offset from it.
         index.iter_mut().for_each(|index| *index -= per_slot as u32);
     }
 
-    /// Writes what was chosen.
+    /// Writes index and probability (10.1).
     fn write<I: Isa>(
         &self,
         isa: I,

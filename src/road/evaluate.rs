@@ -1,4 +1,4 @@
-//! The integrand at given distances, whatever the density.
+//! The integrand at given distances, which is the same for all densities.
 
 use super::blocks::{Block, Tally, Wanted, for_each_block, for_each_run};
 use super::{Method, Out, Task};
@@ -20,7 +20,7 @@ impl Task for Evaluate {
     }
 }
 
-/// Its kernel.
+/// The kernel.
 struct OnGroups<'a> {
     precision: Precision,
     inputs: &'a Inputs<'a>,
@@ -43,7 +43,7 @@ impl Kernel for OnGroups<'_> {
     }
 }
 
-/// The integrands of some turns at the distances `t`, of every channel.
+/// Computes the integrands of some turns at the distances `t`, for every channel.
 fn integrands<I: Isa>(
     isa: I,
     block: &Block<'_, I>,

@@ -9,7 +9,7 @@ use crate::scene::MOST_CHANNELS;
 use crate::simd::{GROUPS, Isa, Kernel, Lanes, Machine, none};
 use crate::{Nodes, Precision};
 
-/// By how many nodes, and on geometry of which precision.
+/// The number of nodes, and the precision of the geometry.
 #[derive(Clone, Copy)]
 pub(crate) struct Quadrature {
     pub(crate) nodes: Nodes,
@@ -33,7 +33,7 @@ impl Task for Radiance {
     }
 }
 
-/// Its kernel for a number of nodes.
+/// The kernel for a number of nodes.
 struct OnGroups<'a, const K: usize> {
     precision: Precision,
     inputs: &'a Inputs<'a>,
@@ -73,21 +73,21 @@ impl<const K: usize> Kernel for OnGroups<'_, K> {
     }
 }
 
-/// What an integral wants of the geometry.
+/// What an integral needs of the geometry.
 pub(super) fn of_integral(precision: Precision) -> Wanted {
     Wanted { precision, extent: Extent::Cosine, records: GROUPS }
 }
 
 /// The integrals of a lane group.
 pub(super) struct Integrated<I: Isa> {
-    /// \[1/m^2\]; 0 unless it is lit.
+    /// \[1/m^2\]; 0 in lanes that are not lit.
     pub(super) radiance: I::V,
     pub(super) valid: I::Mask,
-    /// Which of the valid ones are lit.
+    /// Which valid lanes are lit.
     pub(super) lit: I::Mask,
 }
 
-/// The integrals of a block in some media, one lane group after the other.
+/// Calls `visit` with the integrals of each lane group of a block in some media.
 #[cfg_attr(optimized, inline(always))]
 pub(super) fn for_each_radiance<I: Isa, const K: usize>(
     isa: I,

@@ -1,4 +1,4 @@
-//! Draws a distance for every variate that is given.
+//! Samples a distance for every variate.
 
 use super::blocks::{AHEAD, Block, Geometries, SetUps, Tally, Wanted, for_each_block, for_each_run, set_up};
 use super::{Method, OfDensity, Out, Task, by_strategy};
@@ -16,7 +16,7 @@ impl Task for Sample {
     type Out = OfSamples;
 
     fn run(machine: impl Machine, method: Method, inputs: &Inputs<'_>, out: Samples<'_>) -> Counts {
-        // Apart, as points are handed on for weights and `r` alone.
+        // Two kernels: only the one with weights or `r` keeps points.
         if out.channels() > 0 || out.r.is_some() {
             by_strategy::<Drawing<true>>(machine, method, inputs, out)
         } else {
@@ -42,7 +42,7 @@ impl<const WITH_WEIGHT_OR_R: bool> OfDensity for Drawing<WITH_WEIGHT_OR_R> {
         let mut tally = Tally::new(isa, inputs);
         let (mut set_ups, mut places, mut points) = (SetUps::<I, D>::new(), Records::new(), Records::new());
         let mut pad = None;
-        // Set-ups of spots and colours are compiled once, in a pass of their own.
+        // Spots and colours take the separate passes, so that their set-up is compiled once.
         let once = inputs.per_ray == 1 && inputs.are_plain();
         let wanted = Wanted {
             precision,
@@ -78,15 +78,14 @@ impl<const WITH_WEIGHT_OR_R: bool> OfDensity for Drawing<WITH_WEIGHT_OR_R> {
     }
 }
 
-/// One variate for each ray, without spots and colours: set-up, inversion and output in one pass, as nothing of a set-up is used
-/// again.
+/// One variate per ray, without spots and colours: set-up, inversion and output in one pass, as no set-up is used twice.
 struct Once<'p, I: Isa> {
     block: &'p Block<'p, I>,
     u: &'p [f32],
 }
 
 impl<I: Isa> Once<'_, I> {
-    /// Writes `t` and `pdf`; the points are kept for weights and `r`.
+    /// Writes `t` and `pdf`; keeps the points for weights and `r`.
     fn write<'r, D: Kind, const KEEP: bool>(
         &self,
         isa: I,
@@ -126,7 +125,7 @@ impl<I: Isa> Once<'_, I> {
     }
 }
 
-/// What the lane groups of a block need to go from geometry to output.
+/// The inputs of the passes from geometry to output.
 struct Stations<'p, I: Isa> {
     first: usize,
     rays: RayGroups<'p, I>,
@@ -156,11 +155,11 @@ impl<I: Isa> Stations<'_, I> {
     }
 }
 
-/// Where a variate leads.
+/// The place of a variate.
 #[derive(Clone, Copy)]
 pub(super) struct Placed<I: Isa, P> {
     place: P,
-    /// Which lanes have a ray, a medium and a variate.
+    /// Which lanes have a valid ray, medium and variate.
     valid: I::Mask,
 }
 
@@ -174,10 +173,10 @@ impl<I: Isa, P> Placed<I, P> {
     }
 }
 
-/// By the density `D`.
+/// The same for the density `D`.
 pub(super) type PlacedBy<I, D> = Placed<I, <<D as Kind>::On<I> as Density<I>>::Place>;
 
-/// The variates of some turns through the inverse of the CDF.
+/// Applies the inverse of the CDF to the variates of some turns.
 pub(super) fn draw<'r, I: Isa, D: Kind>(
     isa: I,
     block: &Block<'_, I>,
@@ -203,7 +202,7 @@ pub(super) fn draw<'r, I: Isa, D: Kind>(
     )
 }
 
-/// A point that was drawn, and for which lanes.
+/// A sampled point, and the lanes that have one.
 #[derive(Clone, Copy)]
 struct Sampled<I: Isa> {
     point: Point<I>,
@@ -212,7 +211,7 @@ struct Sampled<I: Isa> {
     sampled: I::Mask,
 }
 
-/// The points of the ray to which variates lead, written as `t` and `pdf`.
+/// The pass from places to points of the ray, `t` and `pdf`.
 struct Points<'p, I: Isa, D: Kind> {
     block: &'p Block<'p, I>,
     set_ups: &'p [SetUp<I, D::On<I>>],
@@ -221,7 +220,7 @@ struct Points<'p, I: Isa, D: Kind> {
 }
 
 impl<I: Isa, D: Kind> Points<'_, I, D> {
-    /// Writes them; they are kept for weights and `r`.
+    /// Writes `t` and `pdf`; keeps the points for weights and `r`.
     fn write<'r, const KEEP: bool>(
         &self,
         isa: I,
@@ -277,7 +276,7 @@ fn point_one<I: Isa, D: Kind>(
     Sampled { point: drawn.point, times_r2: drawn.pdf.times_r2, sampled }
 }
 
-/// What the points weigh, and how far they are from the emitter.
+/// Writes the weights of the points (1.9), and their distances to the emitter.
 fn weigh<I: Isa>(isa: I, block: &Block<'_, I>, turns: &[Turn], points: &[Sampled<I>], out: &mut Samples<'_>) {
     isa.vectorize::<MediumLanes<I>, _>(
         #[cfg_attr(optimized, inline(always))]

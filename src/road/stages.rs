@@ -1,7 +1,7 @@
-//! The road cut short, to time its stations.
+//! Sampling up to a stage, to time the stages.
 //!
-//! Each station is a pass that writes records, so that what a longer road takes more is what the station adds. With one
-//! variate per ray the whole road has set-up, inversion and output in one pass without records: less than their sum.
+//! Each stage is a pass that writes records, so that its time is the difference between two runs. With one variate per ray,
+//! sampling has set-up, inversion and output in one pass without records, which takes less than their sum.
 
 use super::blocks::{SetUps, Wanted, for_each_block, for_each_run, set_up};
 use super::sample::draw;
@@ -13,7 +13,7 @@ use crate::simd::{Isa, Machine, Records, Room};
 use core::hint::black_box;
 use core::ops::Range;
 
-/// How far a ray goes.
+/// The last stage of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
     /// Columns are loaded, and the geometry is computed.
@@ -24,7 +24,7 @@ pub enum Stage {
     Inversion,
 }
 
-/// Goes as far as its output, the stage, says.
+/// Samples up to the stage that stands in place of outputs.
 pub(crate) struct UpTo;
 
 /// Nothing is written.

@@ -1,7 +1,6 @@
-//! One lane that writes down its arithmetic, and counts what was of use.
+//! One lane that records its arithmetic, and counts the operations that a result or a branch depends on.
 //!
-//! A kernel computes more than it is asked for, and the compiler leaves that out: only what a result or a branch depends
-//! on counts.
+//! Other operations are not counted, as the compiler removes them.
 
 use super::{Double, Isa, Kernel, Lanes, Machine, Number};
 use crate::limits::Operations;
@@ -14,13 +13,13 @@ thread_local! {
 
 const NONE: Operations = Operations { multiply_adds: 0, additions: 0, divisions: 0 };
 
-/// Where on the tape a value was made: 1 for the first step, 0 for a constant.
+/// The step on the tape that made a value: 1 for the first step, 0 for a constant.
 type Place = usize;
 
-/// All that was done.
+/// The recorded steps.
 struct Tape {
     steps: Vec<Step>,
-    /// What was written to memory or decided where to go.
+    /// Values that were written to memory or decided a branch.
     wanted: Vec<Place>,
 }
 
@@ -30,8 +29,8 @@ struct Step {
     operands: [Place; 3],
 }
 
-/// Writes a step down; what is made of constants is one.
-// A call: kernels are inlined whole, and this into every place of theirs is more than compilers can take.
+/// Records a step; an operation on constants is a constant.
+// Not inlined: kernels are inlined as a whole, and compilers cannot handle this in all of their places.
 #[inline(never)]
 fn step(operations: Operations, operands: [Place; 3]) -> Place {
     if operands == [0; 3] {
@@ -43,7 +42,7 @@ fn step(operations: Operations, operands: [Place; 3]) -> Place {
     })
 }
 
-/// A step of its own, for what comes from memory.
+/// Records a value that comes from memory.
 #[inline(never)]
 fn given() -> Place {
     TAPE.with_borrow_mut(|tape| {
@@ -58,12 +57,12 @@ fn want(place: Place) {
 }
 
 impl Tape {
-    /// The operations that something wanted depends on.
+    /// The operations that wanted values depend on.
     fn needed(&mut self) -> Operations {
         let mut sum = NONE;
         while let Some(place) = self.wanted.pop() {
             let Some(index) = place.checked_sub(1) else { continue };
-            // A step that was seen has no operands and no operations left.
+            // A step that was counted has no operands and no operations left.
             let Step { operations, operands } = std::mem::replace(&mut self.steps[index], Step::SEEN);
             sum = sum + operations;
             self.wanted.extend(operands);
@@ -82,7 +81,7 @@ impl Step {
 pub(crate) struct Counting(());
 
 impl Counting {
-    /// What `work` needs, all of it on this thread.
+    /// The operations of `work`, which must run on this thread.
     pub(crate) fn count<R>(work: impl FnOnce(Self) -> R) -> Operations {
         work(Self(()));
         TAPE.with_borrow_mut(Tape::needed)
@@ -99,15 +98,15 @@ impl Machine for Counting {
     }
 }
 
-/// A number of one lane, and where it was made.
+/// A number of one lane, and its step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Counted<T>(T, Place);
 
-/// The truth about one lane.
+/// The mask of one lane, and its step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Truth(bool, Place);
 
-/// How many places it takes in a register.
+/// The number of f32 places that a value takes in a register.
 trait Size {
     const SIZE: usize;
 }

@@ -1,9 +1,9 @@
-//! Two of a kind side by side: the halves of a wide double, or two lane groups in flight.
+//! A pair of equal types: the halves of a wide f64 vector, or two lane groups in flight.
 
 use super::{Double, Lanes, Number};
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
-/// What is done to it is done to both.
+/// Operations apply to both members.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pair<T>(pub(super) T, pub(super) T);
 
@@ -116,7 +116,7 @@ impl<V: Lanes> Lanes for Pair<V> {
     fn narrow(d: Self::Double) -> Self {
         Self(V::narrow(d.0), V::narrow(d.1))
     }
-    // One of the two and then the other: the factors of both do not fit the registers either.
+    // One member after the other: the factors of both do not fit the registers.
     #[cfg_attr(optimized, inline(always))]
     fn multiply<const P: usize, const Q: usize, const R: usize>(p: &[Self; P], q: &[Self; Q]) -> [Self; R] {
         let (p_0, p_1) = apart(p);
@@ -132,7 +132,7 @@ impl<V: Lanes> Lanes for Pair<V> {
     }
 }
 
-/// The firsts and the seconds.
+/// The first members and the second members.
 #[cfg_attr(optimized, inline(always))]
 fn apart<T: Copy, const K: usize>(pairs: &[Pair<T>; K]) -> ([T; K], [T; K]) {
     let (mut low, mut high) = ([pairs[0].0; K], [pairs[0].1; K]);

@@ -1,4 +1,4 @@
-//! `wide::f32x8`: the instruction set is whatever the build enables. The reading copy of the trait.
+//! 8 lanes of `wide::f32x8`, with the instruction set that the build enables. The easiest implementation to read.
 
 use super::pair::Pair;
 use super::{Double, Isa, Lanes, Number};
@@ -45,7 +45,7 @@ impl Isa for Portable {
     }
 }
 
-/// Where the machine code of the portable kernels is.
+/// The module of the machine code of the portable kernels.
 trait Home: Sized {
     #[inline(never)]
     fn apart<R>(work: impl FnOnce() -> R) -> R {
@@ -109,7 +109,7 @@ impl Lanes for f32x8 {
     }
     #[inline]
     fn pow2(self) -> Self {
-        // Adding 1.5 * 2^23 leaves the integer in the low bits of the significand.
+        // Adding 1.5 * 2^23 moves the integer to the low bits of the significand.
         let n: i32x8 = cast(self + f32x8::splat(12_582_912.0));
         cast((n + i32x8::splat(127)) << 23)
     }

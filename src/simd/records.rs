@@ -1,27 +1,27 @@
-//! What a pass over a block of lane groups hands on to the next: a record for each group, on the stack.
+//! The records that a pass over a block of lane groups leaves to the next pass: one for each group, on the stack.
 
 use core::mem::MaybeUninit;
 
-/// No block has more lane groups. An unoptimised build keeps every temporary in a place of its own: large blocks would be
-/// larger than a stack.
+/// The largest number of lane groups of a block. Unoptimised builds keep every temporary in a place of its own: large blocks
+/// would overflow the stack.
 pub(crate) const GROUPS: usize = if cfg!(optimized) { 16 } else { 2 };
 
-/// Place for the records of a block of at most `N` groups. It is not written to before a pass writes: zeros would cost a
-/// small batch more than its samples do.
+/// Storage for the records of a block of at most `N` groups. It is not initialised: writing zeros would cost a small batch more
+/// than its samples.
 pub(crate) struct Records<T, const N: usize = GROUPS> {
     places: [MaybeUninit<T>; N],
-    /// How many of them are written.
+    /// The number of records written.
     count: usize,
 }
 
-/// Place for records, of whatever size.
+/// Storage for records, of any capacity.
 pub(crate) trait Room<T> {
-    /// How many there are places for.
+    /// The capacity.
     const SIZE: usize;
 
     fn new() -> Self;
 
-    /// The first `count` records, as `make` makes them, one after the other.
+    /// Writes the first `count` records with `make`, in order.
     fn fill(&mut self, count: usize, make: impl FnMut(usize) -> T) -> &mut [T];
 }
 
@@ -45,13 +45,13 @@ impl<T: Copy, const N: usize> Room<T> for Records<T, N> {
 }
 
 impl<T: Copy, const N: usize> Records<T, N> {
-    /// No records, to which some are added.
+    /// Starts with no records.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn start(&mut self) -> Started<'_, T> {
         Started { places: &mut self.places, count: 0, written: &mut self.count }
     }
 
-    /// Those that were written last.
+    /// The records written last.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn written(&mut self) -> &mut [T] {
         let records = &mut self.places[..self.count];
@@ -60,7 +60,7 @@ impl<T: Copy, const N: usize> Records<T, N> {
     }
 }
 
-/// Records of which the first ones are written.
+/// Records being written.
 pub(crate) struct Started<'r, T> {
     places: &'r mut [MaybeUninit<T>],
     count: usize,
@@ -74,7 +74,7 @@ impl<T: Copy> Started<'_, T> {
         self.count += 1;
     }
 
-    /// No more are added.
+    /// Ends the writing.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn done(self) {
         *self.written = self.count;

@@ -1,8 +1,8 @@
-//! One lane and no vector instruction: what the plumbing of the wide sets with FMA has to give, to the bit.
+//! One lane, without vector instructions: the wide sets with FMA must give the same bits.
 
 use super::{Double, Isa, Lanes, Number};
 
-/// Needs no CPU check; without FMA in the CPU `mul_add` is slow, and the same.
+/// Needs no CPU check; without FMA in the CPU `mul_add` is slow and gives the same bits.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scalar;
 

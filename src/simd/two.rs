@@ -3,8 +3,8 @@
 use super::Isa;
 use super::pair::Pair;
 
-/// An instruction set whose lane groups come in pairs: twice the independent work, to hide latency. (Four at
-/// a time are no faster: they do not fit the registers.)
+/// An instruction set with lane groups in pairs: twice the independent work hides latency. (Four at a time are no faster, as they do
+/// not fit the registers.)
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Two<I>(pub(super) I);
 
@@ -43,7 +43,7 @@ impl<I: Isa> Isa for Two<I> {
     #[inline]
     fn prefetch(self, [low, high]: &[I::Group; 2], ahead: usize) {
         self.0.prefetch(low, 2 * ahead);
-        // A line of the cache holds both of AVX2.
+        // A cache line holds both groups of AVX2.
         if size_of::<I::Group>() >= 64 {
             self.0.prefetch(high, 2 * ahead);
         }

@@ -19,7 +19,7 @@ operators!(F32x8: Add add _mm256_add_ps, Sub sub _mm256_sub_ps, Mul mul _mm256_m
 pub(crate) struct F64x4(__m256d);
 operators!(F64x4: Add add _mm256_add_pd, Sub sub _mm256_sub_pd, Mul mul _mm256_mul_pd);
 
-/// All bits of a lane, or none.
+/// A mask: all bits of a lane are set, or none.
 #[derive(Clone, Copy)]
 pub(crate) struct Mask8(__m256);
 operators!(Mask8: BitAnd bitand _mm256_and_ps, BitOr bitor _mm256_or_ps);

@@ -6,8 +6,7 @@ use crate::simd::{Double, Isa, Lanes, Number};
 use core::arch::x86_64::*;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-/// Proof of AVX-512 with its extension DQ, of VL for what the compiler makes of narrower values, and of AVX2, FMA and
-/// POPCNT.
+/// Proof of AVX-512 with its extension DQ, of VL (compilers use it for narrower values), and of AVX2, FMA and POPCNT.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::simd) struct Avx512(());
 token!(Avx512: "avx512f,avx512dq,avx512vl,avx2,fma,popcnt", detected "avx512f" "avx512dq" "avx512vl" "avx2" "fma" "popcnt");
