@@ -1,4 +1,4 @@
-//! Densities over the angle at the emitter.
+//! Densities over the angle at the emitter: sections 3.2, 3.3 and 4 of `docs/mathematics.md`.
 
 use super::arc::{Angle, Arc};
 use super::paper::{
@@ -6,13 +6,13 @@ use super::paper::{
 };
 use super::quadrature::gauss_legendre;
 
-/// The `m = mu_t h` from which on the polynomial of the transmittance stays as it is.
+/// The largest `m = mu_t h` of the polynomial of the transmittance; a denser medium has the polynomial of this `m`.
 ///
-/// There the published code trusts it up to less than 0.01 rad, so little is lost. It is part of the definition: the
-/// density is one for every `m`, and no quantity that the polynomial stands for is compared beyond.
+/// Little is lost: the published code trusts the polynomial up to less than 0.01 rad there. This is part of the definition of
+/// the density.
 const LARGEST_M: f64 = 32.0;
 
-/// A density over the directions of an arc, up to its constant factor.
+/// A density over the directions of an arc, up to a constant factor.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Shape {
     /// 1
@@ -23,7 +23,7 @@ pub(super) enum Shape {
     Taylor(Taylor),
 }
 
-/// A Taylor polynomial in `sign theta`, continued from `theta_c` on by its value there.
+/// A Taylor polynomial in `sign theta`; beyond `theta_c` it keeps its value there.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Taylor {
     polynomial: Polynomial,
@@ -32,15 +32,15 @@ pub(super) struct Taylor {
 }
 
 impl Taylor {
-    /// (4)-(10) divided by `Q_T0`, up to the published clamp, for `m = mu_t h`.
+    /// (4.1), (4.2): (4)-(10) divided by `Q_T0`, up to the published clamp, for `m = mu_t h`.
     pub(super) fn transmittance(m: f64) -> Self {
         let m = m.min(LARGEST_M);
         Self { polynomial: transmittance_taylor(&geometric(1.0, m)), sign: 1.0, theta_c: transmittance_clamp(m) }
     }
 
-    /// (13)-(19) for `|g|` divided by `v_0`, up to the published clamp, mirrored for `g < 0`.
+    /// (4.3), (4.4): (13)-(19) for `|g|` divided by `v_0`, up to the published clamp, mirrored for `g < 0`.
     ///
-    /// Without `v_0`, which is 0 at `|g|` = 1, it is a density for every `g`.
+    /// `v_0` is 0 at `|g|` = 1; without it the polynomial gives a density for every `g`.
     pub(super) fn phase(g: f64) -> Self {
         let (sign, g) = (if g < 0.0 { -1.0 } else { 1.0 }, g.abs());
         Self { polynomial: phase_taylor(&geometric(1.0, g / (1.0 + g * g))), sign, theta_c: phase_clamp(g) }
@@ -50,7 +50,7 @@ impl Taylor {
         horner(&self.polynomial, (self.sign * theta).min(self.theta_c))
     }
 
-    /// Where the polynomial ends and the constant begins, or the other way round.
+    /// The `theta` between the polynomial and the constant.
     fn kink(&self) -> f64 {
         self.sign * self.theta_c
     }
@@ -75,31 +75,31 @@ impl Angular {
         self.cdf_at(self.arc.at(t))
     }
 
-    /// Up to a direction.
+    /// The CDF of a direction.
     pub(super) fn cdf_at(&self, angle: Angle) -> f64 {
         let below = self.mass(self.arc.start(), angle);
         let above = self.mass(angle, self.arc.end());
         below / (below + above)
     }
 
-    /// Over `theta` \[1/rad\].
+    /// The pdf over `theta` \[1/rad\].
     pub(super) fn pdf(&self, t: f64) -> f64 {
         self.pdf_at(self.arc.at(t))
     }
 
-    /// The same in a direction.
+    /// The pdf in a direction.
     pub(super) fn pdf_at(&self, angle: Angle) -> f64 {
         self.weight(angle) / self.total
     }
 
-    /// The distance \[m\] where a polynomial ends, if that is between the ends of the arc.
+    /// The distance \[m\] between polynomial and constant, if it lies between the ends of the arc.
     pub(super) fn kink(&self) -> Option<f64> {
         let Shape::Taylor(taylor) = &self.shape else { return None };
         let kink = self.kink_of(taylor);
         (0.0 < kink.from_a && 0.0 < kink.to_b).then(|| self.arc.t(kink))
     }
 
-    /// Newton's method, or a bisection where it would leave what is known to hold the root.
+    /// The inverse: Newton's method, with bisection where a step would leave the bracket of the root.
     pub(super) fn draw(&self, u: f64) -> f64 {
         let start = self.arc.start();
         let target = u * self.total;
@@ -151,8 +151,8 @@ impl Angular {
         self.arc.after(taylor.kink() - self.arc.theta(self.arc.start()))
     }
 
-    /// The mass where the weight is smooth, by quadrature: (22) cancels on narrow arcs. For a polynomial of order 6
-    /// times `N`, on an arc of at most pi, 16 nodes are enough to the last digit.
+    /// The mass of a piece where the weight is smooth, by quadrature, as (22) cancels on narrow arcs. 16 nodes have all digits of a
+    /// polynomial of order 6 times `N` on an arc of at most pi.
     fn mass_of_piece(&self, lower: Angle, upper: Angle) -> f64 {
         Angle::between(lower, upper) * gauss_legendre(|s| self.weight(Angle::lerp(lower, upper, s)), 0.0, 1.0)
     }
@@ -163,7 +163,7 @@ mod tests {
     use super::*;
     use std::f64::consts::FRAC_PI_2;
 
-    /// The smallest value of the polynomial over theta, relative to the one at 0.
+    /// The smallest value of the polynomial over theta, relative to the value at 0.
     fn smallest(taylor: &Taylor) -> f64 {
         let theta = |i: i32| FRAC_PI_2 * f64::from(i) / 1000.0;
         (-1000..=1000)

@@ -22,14 +22,14 @@ fn g() -> impl Strategy<Value = f32> {
     prop_oneof![6 => -0.95f32..0.95, 1 => Just(0.0f32), 1 => Just(0.99f32), 1 => Just(-0.99f32)]
 }
 
-/// Where the ray starts in units of h, seen from the perpendicular's foot, and how long it is.
+/// The start of the ray from the foot of the perpendicular, and its length, in units of h.
 fn reach() -> impl Strategy<Value = (f32, f32)> {
     let start = prop_oneof![-4f32..4.0, decades(0.0..2.0).prop_map(|x| -x)];
     let length = prop_oneof![2 => decades(-1.0..1.5), 1 => decades(-6.0..-1.0), 1 => Just(f32::INFINITY)];
     (start, length)
 }
 
-/// How the emitter shines.
+/// The kind of the emitter.
 #[derive(Clone, Copy, Debug)]
 enum Shine {
     Even,
@@ -83,7 +83,7 @@ pub(super) fn scene() -> impl Strategy<Value = Scene> {
     })
 }
 
-/// A variate from 0 to 1, small ones too.
+/// A variate from 0 to 1, also very small ones.
 pub(super) fn uniform() -> impl Strategy<Value = f64> {
     prop_oneof![0f64..=1.0, (-53f64..0.0).prop_map(f64::exp2)]
 }

@@ -1,19 +1,19 @@
-//! The lit part of a ray as an arc of directions seen from the emitter.
+//! The lit part of a ray as an arc of directions seen from the emitter: section 2 of `docs/mathematics.md`.
 
 use super::cone::Cone;
 use std::f64::consts::FRAC_PI_2;
 
-/// `r N`, which is linear along the ray, of an emitter with a normal: `alpha h + beta t'`.
+/// `m = r N = alpha h + beta t'` of an emitter with a normal, linear along the ray (2.4).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Normal {
     pub(super) alpha_h: f64,
     pub(super) beta: f64,
-    /// Its value at `t = 0` \[m\]: `alpha h - beta t_h`, but no difference of large numbers.
+    /// Its value at `t = 0` \[m\]: `alpha h - beta t_h`, not computed as this difference of large numbers.
     pub(super) at_0: f64,
 }
 
 impl Normal {
-    /// `r N` \[m\] from where it is known nearest, negative on the dark side.
+    /// `r N` \[m\], from the nearer of `t = 0` and the foot; negative on the dark side.
     pub(super) fn height(&self, t: f64, t_prime: f64) -> f64 {
         if t.abs() < t_prime.abs() { self.at_0 + self.beta * t } else { self.alpha_h + self.beta * t_prime }
     }
@@ -21,7 +21,7 @@ impl Normal {
 
 /// A direction of the arc, by its angles from the start and to the end \[rad\].
 ///
-/// One of them would do, but not with all digits near the other end.
+/// Each is the width less the other, but has no digits near the other end that way.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Angle {
     pub(super) from_a: f64,
@@ -29,7 +29,7 @@ pub(super) struct Angle {
 }
 
 impl Angle {
-    /// The angle from `lower` up to `upper`, as the difference of the smaller numbers.
+    /// The angle from `lower` to `upper`, as the difference of the smaller numbers.
     pub(super) fn between(lower: Self, upper: Self) -> f64 {
         if lower.to_b < upper.from_a { lower.to_b - upper.to_b } else { upper.from_a - lower.from_a }
     }
@@ -41,7 +41,7 @@ impl Angle {
     }
 }
 
-/// The cone of a spot, and how far the ends of an arc are inside, as angles \[rad\].
+/// The cone of a spot, and the angles by which the ends of an arc are inside \[rad\].
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Spot {
     cone: Cone,
@@ -50,10 +50,10 @@ struct Spot {
     after_b: f64,
 }
 
-/// The part from `t_a` to `t_b` of a ray, where `N > 0`, or which is inside the cone, between the ends.
+/// The lit part of a ray, from `t_a` to `t_b`: where `N > 0`, or inside the cone.
 ///
-/// With `theta` come its complements `psi = pi/2 + theta` and `chi = pi/2 - theta`, the ray's angles with the line to
-/// the emitter: they, not `theta`, resolve the far ends of a long ray, where `theta` is nearly -pi/2 and pi/2.
+/// `psi = pi/2 + theta` and `chi = pi/2 - theta` are the ray's angles with the line to the emitter. They resolve the far ends of a
+/// long ray, where `theta` is nearly -pi/2 and pi/2.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Arc {
     pub(super) t_a: f64,
@@ -106,7 +106,7 @@ impl Arc {
         Self::between(h, t_h, ends).map(|arc| Self { spot: Some(spot), ..arc })
     }
 
-    /// That between two points, each given by its `t` and `t'` \[m\], if the second is behind the first: lit evenly.
+    /// The arc between two points, each given by its `t` and `t'` \[m\], if the second is behind the first: without normal or cone.
     fn between(h: f64, t_h: f64, [(t_a, a), (t_b, b)]: [(f64, f64); 2]) -> Option<Self> {
         if t_a >= t_b {
             return None;
@@ -129,7 +129,7 @@ impl Arc {
         Angle { from_a: s, to_b: self.width - s }
     }
 
-    /// The direction whose angles from the start and to the end are as `exp(s)` to 1.
+    /// The direction whose angles from the start and to the end have the ratio `exp(s)`.
     pub(super) fn at_odds(&self, s: f64) -> Angle {
         Angle { from_a: self.width / (1.0 + (-s).exp()), to_b: self.width / (1.0 + s.exp()) }
     }
@@ -148,7 +148,7 @@ impl Arc {
         }
     }
 
-    /// How far the point at `t` \[m\] between `t_a` and `t_b` is behind the start and before the end \[m\].
+    /// The distances of the point at `t` \[m\] between `t_a` and `t_b` from the start and to the end \[m\].
     pub(super) fn offsets(&self, t: f64) -> (f64, f64) {
         let at = (t, t - self.t_h);
         (length((self.t_a, self.a), at), length(at, (self.t_b, self.b)))
@@ -199,7 +199,7 @@ impl Arc {
         self.spot.map_or(1.0, |spot| spot.cone.falloff(spot.before_a + angle.from_a, angle.to_b + spot.after_b))
     }
 
-    /// The directions of the arc where the falloff is not smooth, in their order.
+    /// The directions of the arc where the falloff is not smooth, ascending.
     pub(super) fn kinks(&self) -> Vec<Angle> {
         let Some(Spot { cone, before_a, after_b }) = self.spot else { return vec![] };
         let Some(penumbra) = cone.penumbra() else { return vec![] };
@@ -229,14 +229,14 @@ impl Arc {
 
 /// The distance \[m\] between two points, each given by its `t` and `t'`, as the difference of the smaller numbers.
 ///
-/// An end where `N = 0` next to an emitter has more digits of `t'` than of `t`. Of differences of `t`, one from the start and
-/// one to such an end, the sum would be another than that of `t'`, and the point in two places.
+/// An end where `N = 0` next to an emitter has more digits in `t'` than in `t`. Differences of `t` from the start and to such an end
+/// would not add up to the difference of `t'`: the point would have two places.
 pub(super) fn length((t_0, t_prime_0): (f64, f64), (t_1, t_prime_1): (f64, f64)) -> f64 {
     let near = t_prime_0.abs().max(t_prime_1.abs()) < t_0.abs().max(t_1.abs());
     if near { (t_prime_1 - t_prime_0).max(0.0) } else { t_1 - t_0 }
 }
 
-/// The angle at the emitter between the points at `a` and `b` from the perpendicular's foot, `length` apart \[m\].
+/// (2.6): the angle at the emitter between the points at `a` and `b` from the foot of the perpendicular, `length` apart \[m\].
 pub(super) fn subtended(h: f64, length: f64, a: f64, b: f64) -> f64 {
     (h * length).atan2(h * h + a * b)
 }

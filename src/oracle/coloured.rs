@@ -1,17 +1,16 @@
-//! One ray, one emitter and a medium of several channels: the light of each, and the one density for all of them.
+//! A ray, an emitter and a medium of several channels: the light of each channel, and the density that all share.
 
 use super::density::Sampled;
 use super::scene::Scene;
 use crate::Strategy;
 use crate::scene::{Emitter, Medium, Ray};
 
-/// One ray, one emitter and a medium of one or several channels in f64.
+/// A ray, an emitter and a medium of one or several channels in f64: section 9 of `docs/mathematics.md`.
 ///
-/// All channels share the distances. A product density with 5 or 9 knots is the mixture, in equal parts, of those of the channels that
-/// scatter, all at the knots of the [mean](Self::mean)'s: proportional to the sum of `f_c/F_c`, with `f_c` the line through what
-/// channel `c` has at the knots and `F_c` its integral. So no channel's relative variance is above `C (1 + V_c) - 1`, for `C`
-/// channels and `V_c` by the line of its own. If no channel scatters all take part. The density of any other strategy is that
-/// of the mean.
+/// All channels share the distances. A product density with 5 or 9 knots is the mixture, in equal parts, of the densities of the
+/// channels that scatter, or of all if none does, on the knots of the [mean](Self::mean): proportional to the sum of `f_c/F_c`, with
+/// `f_c` the line of channel `c` and `F_c` its integral. No channel's relative variance is above `C (1 + V_c) - 1`, for `C` channels
+/// and `V_c` with the density of the channel alone. The density of any other strategy is that of the mean.
 ///
 /// A scene without a lit part has no density: its pdf is 0, and its cdf and the inverse are NaN.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,13 +40,13 @@ impl Coloured {
         &self.channels
     }
 
-    /// What is scattered into the ray at `t` \[m\] in each channel, `mu_s T rho N S / r^2` \[1/m^3\], for unit intensity.
+    /// The integrand `mu_s T rho N S / r^2` at `t` \[m\] in each channel \[1/m^3\].
     #[must_use]
     pub fn integrand(&self, t: f64) -> Vec<f64> {
         self.channels.iter().map(|channel| channel.integrand(t)).collect()
     }
 
-    /// The radiance scattered once in each channel, for unit intensity \[1/m^2\].
+    /// The single-scattered radiance in each channel, for unit intensity \[1/m^2\].
     #[must_use]
     pub fn radiance(&self) -> Vec<f64> {
         self.channels.iter().map(Scene::radiance).collect()
@@ -59,7 +58,7 @@ impl Coloured {
         self.sampled(strategy).map_or(f64::NAN, |sampled| sampled.cdf(t))
     }
 
-    /// The probability density at `t` \[m\], in 1/m; 0 outside the part that is sampled.
+    /// The probability density at `t` \[m\], in 1/m; 0 outside the sampled interval.
     #[must_use]
     pub fn pdf(&self, strategy: Strategy, t: f64) -> f64 {
         self.sampled(strategy).map_or(0.0, |sampled| sampled.pdf(&self.mean, t))
@@ -71,8 +70,7 @@ impl Coloured {
         self.sampled(strategy).map_or(f64::NAN, |sampled| sampled.draw(u))
     }
 
-    /// The [relative variance](Scene::relative_variance) of each channel, if anything is lit; 0 of a channel that does not
-    /// scatter.
+    /// The [relative variance](Scene::relative_variance) of each channel, if a part is lit; 0 for a channel that does not scatter.
     #[must_use]
     pub fn relative_variance(&self, strategy: Strategy) -> Option<Vec<f64>> {
         let density = self.sampled(strategy)?.density;

@@ -1,23 +1,23 @@
-//! The cone of a spot along a ray: where the ray is inside, and how the intensity falls off there.
+//! The cone of a spot along a ray: the lit interval and the falloff there, section 8 of `docs/mathematics.md`.
 
 use super::arc::{length, subtended};
 use super::twofold::{Twofold, Vector};
 use crate::scene;
 
-/// Where the line of the ray leaves the cone, on one side.
+/// One edge of the cone on the line of the ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Edge {
     /// At `t` and `t'` \[m\].
     At(f64, f64),
-    /// Nowhere: the edge lies so far beyond the end of the line at infinity, as an angle at the emitter \[rad\].
+    /// Beyond the end of the line at infinity, by this angle at the emitter \[rad\].
     Beyond(f64),
 }
 
 /// The part of the line that is inside the outer cone.
 ///
-/// In the plane of emitter and line the cone is a sector: with `rho` the largest cosine of `phi` in the plane,
-/// `cos phi - cos_outer = 2 rho sin(before/2) sin(after/2)`, where `before` and `after` are the angles at the emitter from one
-/// edge of the sector and to the other. Nothing cancels there, however narrow the cone.
+/// In the plane of emitter and line the cone is a sector. With `rho` the largest cosine of `phi` in the plane,
+/// `cos phi - cos_outer = 2 rho sin(before/2) sin(after/2)` (8.7), where `before` and `after` are the angles at the emitter from one
+/// edge of the sector and to the other: nothing cancels, however narrow the cone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Cone {
     lower: Edge,
@@ -25,12 +25,12 @@ pub(super) struct Cone {
     rho: f64,
     /// `cos_inner - cos_outer`.
     fall: f64,
-    /// The angle from an edge to where the intensity is full, if it is anywhere and the edge is not hard \[rad\].
+    /// The angle from an edge to the directions of full intensity \[rad\], if there are any and the edge is not hard.
     penumbra: Option<f64>,
 }
 
-/// The line of the ray as seen from the emitter: the direction `d` as it is, `w` from the emitter to the ray's origin, their
-/// cross product, and `h` as the scene has it.
+/// The line of the ray as seen from the emitter: the direction `d`, not normalised, `w` from the emitter to the ray's origin, their
+/// cross product, and the `h` of the scene.
 pub(super) struct Line {
     pub(super) d: Vector,
     pub(super) w: Vector,
@@ -41,13 +41,13 @@ pub(super) struct Line {
 impl Cone {
     /// The part of the line inside the cone, if there is one.
     ///
-    /// `m = a.(x - y)` is `p + q t'`, and the point is inside where `m >= c r`: as `r` is convex this is an interval. Squared,
-    /// `(q^2 - c^2) t'^2 + 2 p q t' + p^2 - c^2 h^2 >= 0`, with a quarter of the discriminant `c^2 h^2 (rho^2 - c^2)`. What is
-    /// beyond the larger root for `q > c`, below the smaller one for `q < -c`, and between them for `|q| < c` is inside,
-    /// there if `p > 0`: the rest is where `m <= -c r`. The same in `t` has the digits of edges near the origin.
+    /// `m = a.(x - y)` is `p + q t'`, and the point is inside where `m >= c r`, which is an interval as `r` is convex. Squared (8.6),
+    /// `(q^2 - c^2) t'^2 + 2 p q t' + p^2 - c^2 h^2 >= 0`, with a quarter of the discriminant `c^2 h^2 (rho^2 - c^2)`. The inside is
+    /// beyond the larger root for `q > c`, below the smaller root for `q < -c`, and between the roots for `|q| < c` and `p > 0`;
+    /// elsewhere `m <= -c r`. The same equation in `t` has the digits of edges near the origin.
     ///
-    /// All differences are of products with twice the digits. Where `h` is not what the positions say, the emitter being on
-    /// the line, they are of what `h` says.
+    /// All differences are of products with twice the digits. If the emitter is on the line, they use the `h` of the scene in place
+    /// of that of the positions.
     pub(super) fn new(cone: &scene::Cone, line: &Line) -> Option<Self> {
         let Line { d, w, w_cross_d: k, h } = *line;
         let a = Vector::from(cone.axis());
@@ -104,7 +104,7 @@ impl Cone {
         })
     }
 
-    /// The same for another foot of the perpendicular, which is so much nearer to the origin \[m\].
+    /// The same for a foot of the perpendicular that is `nearer` to the origin \[m\].
     pub(super) fn with_foot(self, nearer: f64) -> Self {
         let moved = |edge| match edge {
             Edge::At(t, t_prime) => Edge::At(t, t_prime + nearer),
@@ -113,7 +113,7 @@ impl Cone {
         Self { lower: moved(self.lower), upper: moved(self.upper), ..self }
     }
 
-    /// The part of an interval, each end by its `t` and `t'` \[m\], that is inside.
+    /// The part of an interval inside the cone; ends are given by `t` and `t'` \[m\].
     pub(super) fn clip(&self, [mut start, mut end]: [(f64, f64); 2]) -> [(f64, f64); 2] {
         if let Edge::At(t, t_prime) = self.lower
             && start.0 < t
@@ -150,7 +150,7 @@ impl Cone {
         if inside { self.falloff(self.before(h, point), self.after(h, point)) } else { 0.0 }
     }
 
-    /// The falloff `S` in a direction inside, by its angles from the lower edge and to the upper one.
+    /// The falloff `S` in a direction inside, given its angles from the lower edge and to the upper edge.
     pub(super) fn falloff(&self, before: f64, after: f64) -> f64 {
         if self.fall == 0.0 {
             return 1.0;
@@ -159,7 +159,7 @@ impl Cone {
         if s < 1.0 { s * s * (3.0 - 2.0 * s) } else { 1.0 }
     }
 
-    /// The angle from an edge to where the intensity is full, if it is anywhere and the edge is not hard \[rad\].
+    /// The angle from an edge to the directions of full intensity \[rad\], if there are any and the edge is not hard.
     pub(super) fn penumbra(&self) -> Option<f64> {
         self.penumbra
     }
@@ -176,8 +176,8 @@ fn roots(a: f64, b: f64, c: f64, root: f64) -> [f64; 2] {
     }
 }
 
-/// How far an edge of the sector is beyond the end of the line that has the cosine `beta >= 0` with the axis \[rad\]: the edge
-/// is at an angle of `atan2(sine, c)` from the axis, `square = beta^2 - c^2`.
+/// The angle by which an edge of the sector is beyond the end of the line that has the cosine `beta >= 0` with the axis \[rad\]. The
+/// edge is at an angle of `atan2(sine, c)` from the axis, and `square = beta^2 - c^2`.
 fn beyond(alpha: f64, beta: f64, c: f64, sine: f64, square: f64) -> f64 {
     let across = if square == 0.0 {
         0.0

@@ -1,4 +1,4 @@
-//! What each strategy samples: its density, its distribution, and the inverse of that.
+//! The density of each strategy, its distribution, and the inverse.
 //!
 //! | strategy | proportional to | over | on |
 //! |---|---|---|---|
@@ -23,7 +23,7 @@ pub(super) enum Density {
 }
 
 impl Density {
-    /// Where it is not smooth between its ends \[m\].
+    /// The distances between its ends where it is not smooth \[m\].
     pub(super) fn kinks(&self) -> Vec<f64> {
         match self {
             Self::Distance(_) => vec![],
@@ -77,7 +77,7 @@ impl Sampled {
         }
     }
 
-    /// Over distance, in the scene that it is of.
+    /// The pdf over distance, in the scene of the density.
     pub(super) fn pdf(&self, scene: &Scene, t: f64) -> f64 {
         if !(self.t_a..=self.t_b).contains(&t) {
             return 0.0;
@@ -105,8 +105,8 @@ impl Sampled {
     }
 }
 
-/// The density of a strategy, over distance. A scene without a [lit](Scene::lit) part has none: its pdf is 0, and its
-/// cdf and the inverse are NaN.
+/// The density of a strategy over distance. A scene without a [lit](Scene::lit) part has none: its pdf is 0, its cdf and its
+/// inverse are NaN.
 impl Scene {
     /// The probability of a distance of at most `t` \[m\].
     #[must_use]
@@ -114,7 +114,7 @@ impl Scene {
         self.sampled(strategy).map_or(f64::NAN, |sampled| sampled.cdf(t))
     }
 
-    /// The probability density at `t` \[m\], in 1/m; 0 outside the part that is sampled.
+    /// The probability density at `t` \[m\], in 1/m; 0 outside the sampled interval.
     #[must_use]
     pub fn pdf(&self, strategy: Strategy, t: f64) -> f64 {
         self.sampled(strategy).map_or(0.0, |sampled| sampled.pdf(self, t))

@@ -1,4 +1,4 @@
-//! The density over distance proportional to the transmittance along the ray.
+//! The density over distance proportional to the transmittance along the ray: section 3.1 of `docs/mathematics.md`.
 
 /// The density proportional to `exp(-mu_t t)` on `[t_min, t_max]`, all in metres.
 #[derive(Clone, Copy, Debug)]

@@ -1,8 +1,9 @@
 //! The equations of the supplement "Practical product sampling for single scattering in media" (Villeneuve, Gruson,
 //! Georgiev, Nowrouzezahrai, 2021) in f64, under its numbers and with its misprints corrected.
 //!
-//! What is printed otherwise there: `mu_n` for `mu_t` in (11); 15 for 15/2 in (15); no square root in (20); the second
-//! polynomial of (22), whose factors are `(beta, -alpha)`; and the sign of the `l` terms after the first in (24)-(28).
+//! The misprints are `mu_n` for `mu_t` in (11); 15 for 15/2 in (15); a missing square root in (20); the second polynomial of (22),
+//! whose factors are `(beta, -alpha)`; and the sign of the `l` terms after the first in (24)-(28). Section 4.3 of
+//! [mathematics](crate::guide::mathematics#43-misprints-of-the-supplement) lists them with their tests.
 
 use std::f64::consts::PI;
 
@@ -56,7 +57,7 @@ pub fn transmittance_taylor(u: &Polynomial) -> Polynomial {
     ]
 }
 
-/// (12) The phase function of Henyey and Greenstein \[1/sr\] where the ray meets the light at the angle `theta` \[rad\].
+/// (12) The phase function of Henyey and Greenstein \[1/sr\] at the angle `theta` \[rad\].
 #[must_use]
 pub fn phase(g: f64, theta: f64) -> f64 {
     (1.0 - g * g) / (4.0 * PI * (1.0 + g * g + 2.0 * g * theta.sin()).powf(1.5))
@@ -97,7 +98,7 @@ pub fn antiderivative(f: &Polynomial, alpha: f64, beta: f64, theta: f64) -> f64 
     horner(&q_cos, theta) * theta.cos() + horner(&q_sin, theta) * theta.sin()
 }
 
-/// The polynomials `Q^{alpha, beta}`, that of the cosine in (22), and `Q^{beta, -alpha}`, that of the sine.
+/// The polynomials of (22): `Q^{alpha, beta}` of the cosine and `Q^{beta, -alpha}` of the sine.
 #[must_use]
 pub fn coefficients(f: &Polynomial, alpha: f64, beta: f64) -> [Polynomial; 2] {
     [q(f, alpha, beta), q(f, beta, -alpha)]
@@ -118,8 +119,8 @@ pub fn q(f: &Polynomial, k: f64, l: f64) -> Polynomial {
     ]
 }
 
-/// [`coefficients`] without a table: what comparing powers of theta in `(b cos + a sin)' = f (alpha cos + beta sin)`
-/// yields, from the top degree down.
+/// [`coefficients`] by a recurrence from the top degree down, which follows from comparing powers of theta in
+/// `(b cos + a sin)' = f (alpha cos + beta sin)`.
 #[must_use]
 pub fn coefficients_by_recurrence(f: &Polynomial, alpha: f64, beta: f64) -> [Polynomial; 2] {
     let above = |p: &Polynomial, n: usize| p.get(n).copied().unwrap_or(0.0);

@@ -1,12 +1,12 @@
-//! The density nearly proportional to the whole integrand `T rho N S`, linear between some knots of the variable `v` of
-//! [`Warp`].
+//! The density nearly proportional to the whole integrand `T rho N S`, linear between knots of the variable `v` of [`Warp`]:
+//! section 6 of `docs/mathematics.md`.
 
 use super::arc::Arc;
 use super::scene::{Scene, phase};
 use super::warp::{Variable, Warp, half_angle};
 use std::f64::consts::PI;
 
-/// What was chosen by measurement, for the least variance. The kernel has the same numbers.
+/// Constants chosen by measurement for the least variance. The kernel has the same.
 mod chosen {
     /// The scale of the variable: `1/Y_c = EXTINCTION mu_t + 1/(START X_a + PEAK h (1-g)/(1+g))`, where `h (1-g)/(1+g)`
     /// is the `X` at which the phase function turns.
@@ -15,17 +15,16 @@ mod chosen {
     pub(super) const PEAK: f64 = 1.25;
     /// The share of equal spacing in the knots; the rest is that of Chebyshev's points, denser towards the ends.
     pub(super) const EQUAL: f64 = 0.65;
-    /// How far from an end the integrand is looked at in its stead, in widths of the segment.
+    /// The place where the integrand is evaluated instead of an end: its distance from the end, in widths of the segment.
     pub(super) const INSIDE: f64 = 0.125;
-    /// An end with less than this share of the cosine is dark. The line then counts so much of the next knot against what
-    /// is seen there.
+    /// An end with less than this share of the cosine is dark. The next constant is the factor of the next knot at a dark end (6.14).
     pub(super) const DARK: f64 = 1.0 / 4096.0;
     pub(super) const NEXT_TO_DARK: f64 = 0.25;
-    /// The least share of what is seen there that the line keeps at a dark end, at any other, and between the ends.
+    /// The least value of the line, as a share of the integrand, at a dark end, at any other end, and at an inner knot.
     pub(super) const LEAST_IN_THE_DARK: f64 = 0.0625;
     pub(super) const LEAST_AT_END: f64 = 0.25;
     pub(super) const LEAST: f64 = 0.5;
-    /// The largest `|g|` that the density is made for, the f32 next below 1: at 1 the phase function has no width.
+    /// The largest `|g|` of the density, the f32 next below 1: at 1 the phase function has no width.
     pub(super) const LARGEST_G: f64 = 1.0 - f32::EPSILON as f64 / 2.0;
 }
 
@@ -60,7 +59,7 @@ impl Product {
         let mut f = vec![0.0; count];
         for &mu_t in mu_t {
             let integrand = |at| {
-                // Relative to the start.
+                // T relative to the start.
                 let transmittance = (-mu_t * warp.y(at)).exp();
                 transmittance * over_v(&arc, &warp, g, at)
             };
@@ -84,7 +83,7 @@ impl Product {
         ((lower.below + 0.5 * (lower.f + f) * (at.v - lower.at.v)) / self.total()).min(1.0)
     }
 
-    /// Over `theta` \[1/rad\], at `t` \[m\].
+    /// The pdf over `theta` \[1/rad\] at `t` \[m\].
     pub(super) fn pdf(&self, t: f64) -> f64 {
         self.pdf_at(self.warp.at(t))
     }
@@ -106,7 +105,7 @@ impl Product {
         self.warp.t(Variable { v: lower.at.v + tau * width, to_1: upper.at.to_1 + (1.0 - tau) * width })
     }
 
-    /// The variable that it is linear in, between the knots.
+    /// The variable in which the density is piecewise linear.
     pub(super) fn warp(&self) -> &Warp {
         &self.warp
     }
@@ -116,7 +115,7 @@ impl Product {
         self.knots.iter().map(|knot| knot.at.v)
     }
 
-    /// The distances \[m\] of the knots but the ends.
+    /// The distances \[m\] of the inner knots.
     pub(super) fn kinks(&self) -> Vec<f64> {
         self.knots[1..self.knots.len() - 1].iter().map(|knot| self.warp.t(knot.at)).collect()
     }
@@ -132,15 +131,15 @@ impl Product {
     }
 }
 
-/// `Y_c` \[m\], no shorter than the shortest length that is resolved: part of the definition, as is that of `h`.
+/// (6.1): `Y_c` \[m\]. Its least value is part of the definition, as that of `h` is.
 fn scale(arc: &Arc, mu_t: f64, g: f64) -> f64 {
     let turn = arc.h * (1.0 - g) / (1.0 + g);
     let reach = chosen::START * half_angle(arc.h, arc.a) + chosen::PEAK * turn;
     (1.0 / (chosen::EXTINCTION * mu_t + 1.0 / reach)).max(1e-18)
 }
 
-/// Which ends are dark: where `N` is small as compared with `|alpha| + |beta|` or, below a right angle, with the sum of the
-/// cosines at the ends; or where `S` is small.
+/// Which ends are dark: `N` is small compared with `|alpha| + |beta|` or, if the arc is less than a right angle, with the sum of the
+/// cosines at the ends; or `S` is small.
 fn dark(scene: &Scene, arc: &Arc) -> [bool; 2] {
     let ends = [arc.start(), arc.end()];
     let [n_a, n_b] = ends.map(|end| arc.cosine(end));
@@ -157,7 +156,7 @@ fn masses(knots: &[Variable], f: &[f64]) -> Vec<f64> {
     below
 }
 
-/// Where the knots are, rounded to f32: so the kernel has them exactly.
+/// (6.6): the knots, rounded to f32, so that the kernel has the same.
 fn knots(count: usize) -> Vec<Variable> {
     let chebyshev = |s: f64| 0.5 * (1.0 - (PI * s).cos());
     let v = |s: f64| f64::from((chosen::EQUAL * s + (1.0 - chosen::EQUAL) * chebyshev(s)) as f32);
@@ -166,12 +165,12 @@ fn knots(count: usize) -> Vec<Variable> {
     knots
 }
 
-/// The values at the knots of the lines that follow `f` with little variance.
+/// (6.11)-(6.14): the values at the knots of a line that follows `f` with little variance.
 ///
-/// The chords of a curve that bends upwards lie above it, by a twelfth of `width^2 f''` in the mean: lowered by that much,
-/// as least squares would have them, they leave a sixth of the variance. At an end, where `N`, `S` or `T` may vanish over no
-/// length at all, `f` says nothing of its segment; what does is a line through a place inside. Where `N` or `S` vanishes that
-/// line ends at about 0, as a difference without digits: it is drawn lower there, so that the least share stands.
+/// The chord of a curve that bends upwards lies above it, by a twelfth of `width^2 f''` in the mean. Lowered by that much, as by
+/// least squares, it leaves a sixth of the variance. At an end, where `N`, `S` or `T` may vanish over no length at all, `f` does not
+/// represent its segment; a line through a place inside does. Where `N` or `S` vanishes, this line ends at about 0, as a difference
+/// without digits: a lower line is taken there, so that the least share decides.
 fn lines(knots: &[Variable], dark: [bool; 2], f: impl Fn(Variable) -> f64) -> Vec<f64> {
     let last = knots.len() - 1;
     let (first, to_1) = (chosen::INSIDE * knots[1].v, chosen::INSIDE * knots[last - 1].to_1);

@@ -1,6 +1,6 @@
-//! Integrals of functions of one variable: Gauss and Legendre's rule, and the same rule halved until it agrees.
+//! Integrals of functions of one variable: Gauss and Legendre's rule, and the same rule on adaptively halved intervals.
 
-/// Pieces that [`integrate`] may cut its interval into before it settles for what it has.
+/// The largest number of pieces of [`integrate`].
 const MOST_PIECES: usize = 4096;
 
 /// The positive nodes and their weights on \[-1, 1\] of the rule with 16 nodes; the negative ones mirror them.
@@ -25,21 +25,21 @@ pub fn gauss_legendre(f: impl Fn(f64) -> f64, a: f64, b: f64) -> f64 {
 /// The integral of `f` over the finite interval from `a` to `b`.
 ///
 /// The piece on which the rule and its two halves disagree most is halved until the sum of all disagreements is at most
-/// `relative_tolerance` times the integral. What is returned is the sum of the halves, which is far closer than that.
-/// A feature much narrower than a sixteenth of the interval can escape it: give such an `f` in pieces, to
+/// `relative_tolerance` times the integral. The result is the sum of the halves, which is far more exact than that.
+/// The rule can miss a feature much narrower than a sixteenth of the interval: give such an `f` in pieces to
 /// [`integrate_pieces`].
 pub fn integrate(f: impl Fn(f64) -> f64, a: f64, b: f64, relative_tolerance: f64) -> f64 {
     integrate_pieces(f, &[a, b], relative_tolerance)
 }
 
-/// As [`integrate`], from the first to the last of `ends`, with a look at each piece between two of them.
+/// As [`integrate`], from the first to the last of `ends`, starting with the pieces between neighbouring ends.
 pub fn integrate_pieces(f: impl Fn(f64) -> f64, ends: &[f64], relative_tolerance: f64) -> f64 {
     let mut pieces: Vec<Piece> =
         ends.windows(2).map(|w| Piece::new(&f, w[0], w[1], gauss_legendre(&f, w[0], w[1]))).collect();
     loop {
         let integral: f64 = pieces.iter().map(Piece::integral).sum();
         let error: f64 = pieces.iter().map(Piece::error).sum();
-        // Not `error > ...`: an integral that is not a number is no reason to go on.
+        // Not `error > ...`: the loop must also end if the integral is NaN.
         let unsettled = error > relative_tolerance * integral.abs();
         if !unsettled || pieces.len() >= MOST_PIECES {
             return integral;

@@ -1,4 +1,4 @@
-//! One ray, one emitter, one medium, and the light that is scattered once on the way.
+//! A ray, an emitter and a medium, and the light scattered once: sections 1 and 2 of `docs/mathematics.md`.
 
 use super::arc::{Angle, Arc, Normal, subtended};
 use super::cone::{Cone, Line};
@@ -7,14 +7,14 @@ use super::twofold::Vector;
 use crate::scene::{Emitter, FARTHEST, Medium, Ray};
 use std::f64::consts::PI;
 
-/// One ray, one emitter, one medium in f64.
+/// A ray, an emitter and a medium in f64.
 ///
 /// - The direction is normalised in f64: distances are metres whatever the length of the ray's f32 direction.
-/// - The normal is taken as it is: its length scales `N`. The axis of a spot is normalised in f64.
-/// - `mu_t` is the medium's f32 sum; of a coloured medium `mu_s` and `mu_t` are the [means](Medium::mean).
+/// - The normal is not normalised: its length scales `N`. The axis of a spot is normalised in f64.
+/// - `mu_t` is the medium's f32 sum; `mu_s` and `mu_t` of a coloured medium are the [means](Medium::mean).
 /// - `t_max` is at most [`FARTHEST`].
 /// - `h` is at least 1e-18 m and at least 1e-9 of `|t_h|` and of `|t_min - t_h|`: an emitter on the ray's line is
-///   treated as one beside it. `alpha h` stays what it is, and `cos phi` is `a.(x - y)` over that `r`.
+///   treated as one beside it. `alpha h` is unchanged, and `cos phi` is `a.(x - y)` over the resulting `r`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scene {
     pub(super) t_min: f64,
@@ -28,14 +28,14 @@ pub struct Scene {
     pub(super) arc: Option<Arc>,
 }
 
-/// How the intensity of the emitter depends on the direction.
+/// The dependence of the emitter's intensity on the direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Emission {
-    /// Not at all.
+    /// Constant.
     Even,
-    /// As `N`.
+    /// `N`
     Normal(Normal),
-    /// As `S`; `None` where the line of the ray misses the cone.
+    /// `S`; `None` if the line of the ray misses the cone.
     Spot(Option<Cone>),
 }
 
@@ -84,8 +84,8 @@ impl Scene {
         }
     }
 
-    /// The same scene with other values of `h` and `t_h` \[m\], as the kernels have them when these are rounded: what is
-    /// lit, and `N r` along the ray, stay what they are.
+    /// The same scene with other values of `h` and `t_h` \[m\], such as the rounded ones of the kernels. The lit part, and `N r` along
+    /// the ray, are unchanged.
     #[must_use]
     pub fn with_foot(&self, h: f64, t_h: f64) -> Self {
         let emission = match self.emission {
@@ -116,13 +116,13 @@ impl Scene {
         self.h
     }
 
-    /// Where the ray's line is nearest to the emitter, `t_h` \[m\], signed.
+    /// The distance `t_h` along the ray of the point nearest to the emitter \[m\], signed.
     #[must_use]
     pub fn t_h(&self) -> f64 {
         self.t_h
     }
 
-    /// `alpha = n.u` with `u` from the emitter straight to the ray's line; 0 without a normal.
+    /// `alpha = n.w`, with the unit vector `w` from the emitter to the foot of the perpendicular; 0 without a normal.
     #[must_use]
     pub fn alpha(&self) -> f64 {
         self.normal().map_or(0.0, |n| n.alpha_h / self.h)
@@ -164,7 +164,7 @@ impl Scene {
         (t - self.t_h).atan2(self.h)
     }
 
-    /// `theta(t1) - theta(t0)` \[rad\] with all its digits, `t0` and `t1` in metres.
+    /// `theta(t1) - theta(t0)` \[rad\] without cancellation, `t0` and `t1` in metres.
     #[must_use]
     pub fn angle(&self, t0: f64, t1: f64) -> f64 {
         subtended(self.h, t1 - t0, t0 - self.t_h, t1 - self.t_h)
@@ -176,7 +176,7 @@ impl Scene {
         (-self.mu_t * (t - self.t_min + self.r(t))).exp()
     }
 
-    /// The phase function `rho` at `t` \[m\], in 1/sr; finite at `|g|` = 1 too, where it is 0 off its peak.
+    /// The phase function `rho` at `t` \[m\], in 1/sr; also finite at `|g|` = 1, where it is 0 off its peak.
     #[must_use]
     pub fn phase(&self, t: f64) -> f64 {
         let (t_prime, r) = (t - self.t_h, self.r(t));
@@ -192,7 +192,7 @@ impl Scene {
         self.normal().map_or(1.0, |n| (n.height(t, t - self.t_h) / self.r(t)).max(0.0))
     }
 
-    /// The falloff `S` of a spot at `t` \[m\]; 1 of other emitters.
+    /// The falloff `S` of a spot at `t` \[m\]; 1 for other emitters.
     #[must_use]
     pub fn falloff(&self, t: f64) -> f64 {
         match self.emission {
@@ -201,27 +201,27 @@ impl Scene {
         }
     }
 
-    /// What is scattered into the ray at `t` \[m\], `mu_s T rho N S / r^2` \[1/m^3\], for unit intensity.
+    /// The integrand `mu_s T rho N S / r^2` at `t` \[m\], in 1/m^3.
     #[must_use]
     pub fn integrand(&self, t: f64) -> f64 {
         let emitted = self.cosine(t) * self.falloff(t);
         self.mu_s * self.transmittance(t) * self.phase(t) * emitted / self.r(t).powi(2)
     }
 
-    /// The radiance scattered once, for unit intensity \[1/m^2\]: the integral of [`integrand`](Self::integrand) over
-    /// [`lit`](Self::lit), to about 1e-12 of itself.
+    /// The single-scattered radiance for unit intensity \[1/m^2\]: the integral of [`integrand`](Self::integrand) over
+    /// [`lit`](Self::lit), with a relative error of about 1e-12.
     #[must_use]
     pub fn radiance(&self) -> f64 {
         let Some(arc) = &self.arc else { return 0.0 };
-        // T, rho and N vary fastest towards the ends of the arc, over angles of any size. As a function of the logarithm
-        // of the odds of the angle every such layer is as wide as any other. 1/r^2 goes, for dt/r^2 = dtheta/h.
+        // T, rho and N vary fastest towards the ends of the arc, over angles of any size. In the logarithm of the odds of the
+        // angle every such layer has about the same width. 1/r^2 cancels, as dt/r^2 = dtheta/h.
         let integrand = |s: f64| {
             let angle = arc.at_odds(s);
             let path = arc.t(angle) - self.t_min + self.h / arc.cos_theta(angle);
             let emitted = arc.cosine(angle) * arc.falloff(angle);
             (-self.mu_t * path).exp() * phase(self.g, arc, angle) * emitted * angle.from_a * angle.to_b
         };
-        // exp(-64) of the arc is left out at each end.
+        // exp(-64) of the arc at each end is left out.
         let mut ends: Vec<f64> = (0..=8).map(|i| 16.0 * f64::from(i) - 64.0).collect();
         ends.extend(arc.kinks().into_iter().map(|kink| (kink.from_a / kink.to_b).ln()).filter(|s| s.abs() < 64.0));
         ends.sort_by(f64::total_cmp);
@@ -235,7 +235,7 @@ pub(super) fn phase(g: f64, arc: &Arc, angle: Angle) -> f64 {
     henyey_greenstein(g, arc.one_plus_sin_theta(sign, angle))
 }
 
-/// (12), from `1 + sin theta` for `g >= 0` and from `1 - sin theta` for `g < 0`: the distance from the peak.
+/// (1.4), (12), given `1 + sin theta` for `g >= 0` and `1 - sin theta` for `g < 0`.
 fn henyey_greenstein(g: f64, one_plus_sin: f64) -> f64 {
     let g = g.abs();
     let s = (1.0 - g).powi(2) + 2.0 * g * one_plus_sin;

@@ -1,9 +1,9 @@
-//! Vectors with twice the digits of f64: products that cancel leave a sum that still has all of f64's.
+//! Vectors with twice the digits of f64: sums of products that cancel keep all digits of an f64.
 
 use glam::DVec3;
 use std::ops::{Add, Mul, Sub};
 
-/// The unevaluated sum of a number and of what rounding it took away.
+/// The unevaluated sum of a number and the remainder of its rounding.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Twofold {
     high: f64,
@@ -54,7 +54,7 @@ impl Mul for Twofold {
     }
 }
 
-/// A vector of such numbers.
+/// A vector of [`Twofold`].
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Vector([Twofold; 3]);
 
@@ -69,7 +69,7 @@ impl Vector {
         Self([a1 * b2 - a2 * b1, a2 * b0 - a0 * b2, a0 * b1 - a1 * b0])
     }
 
-    /// The scalar product, for further products that cancel.
+    /// The scalar product with twice the digits.
     pub(super) fn product(self, o: Self) -> Twofold {
         let ([a0, a1, a2], [b0, b1, b2]) = (self.0, o.0);
         a0 * b0 + a1 * b1 + a2 * b2

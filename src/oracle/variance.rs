@@ -1,4 +1,4 @@
-//! How far single samples stray: relative variances, by quadrature.
+//! Relative variances of single samples, by quadrature (1.10).
 
 use super::angular::{Angular, Shape, Taylor};
 use super::arc::{Angle, Arc};
@@ -9,22 +9,21 @@ use super::scene::{Scene, phase};
 use super::warp::{Variable, Warp};
 use crate::Strategy;
 
-/// To which the integrals are refined, relative to themselves; they come out far closer.
+/// The relative tolerance of the integrals; their errors are far smaller.
 const TOLERANCE: f64 = 1e-8;
 
-/// Relative variances, of the one-sample estimator of the [`radiance`](Scene::radiance) by distances from a density:
-/// `V = Int f^2/p / (Int f)^2 - 1`, 0 where the density is proportional to the integrand.
+/// The relative variance of the one-sample estimator of the [`radiance`](Scene::radiance), for a density of distances:
+/// `V = Int f^2/p / (Int f)^2 - 1`, 0 if the density is proportional to the integrand.
 ///
-/// None where nothing is [lit](Scene::lit). Infinite where the density is 0 and the integrand is not, NaN if either is
-/// no number.
+/// It is `None` if nothing is [lit](Scene::lit), infinite if the density is 0 where the integrand is not, and NaN if either is NaN.
 impl Scene {
-    /// That of a strategy.
+    /// The relative variance of a strategy.
     #[must_use]
     pub fn relative_variance(&self, strategy: Strategy) -> Option<f64> {
         self.relative_variance_by(&self.sampled(strategy)?.density, self)
     }
 
-    /// That of the density of another scene, which differs in its medium alone.
+    /// The relative variance with the density of another scene, which differs only in its medium.
     pub(super) fn relative_variance_by(&self, density: &Density, of: &Self) -> Option<f64> {
         let over_angle = |place: &Place| match density {
             // dt/dtheta = r^2/h
@@ -35,10 +34,10 @@ impl Scene {
         self.variance_of(over_angle, &density.kinks(), of)
     }
 
-    /// That of the best sampler of the paper, for reference: the density of [`Strategy::TaylorPhase`], whose variate is
-    /// in turn drawn from a quadratic Bezier curve that stands for the transmittance.
+    /// The relative variance of the best sampler of the paper, for reference: the density of [`Strategy::TaylorPhase`] with variates
+    /// that are sampled from a quadratic Bezier curve in place of the transmittance.
     ///
-    /// The control values of the curve are the transmittances of the distances for the variates 0, 1/2 and 1.
+    /// The control values of the curve are the transmittances at the distances of the variates 0, 1/2 and 1.
     #[must_use]
     pub fn relative_variance_of_paper_best(&self) -> Option<f64> {
         let arc = self.arc?;
@@ -51,10 +50,10 @@ impl Scene {
         self.variance_of(over_angle, phase.kink().as_slice(), self)
     }
 
-    /// That of a density over `theta` \[1/rad\] with kinks at some distances \[m\].
+    /// The relative variance of a density over `theta` \[1/rad\] with kinks at some distances \[m\].
     ///
-    /// The quadrature runs over the variable of the product densities of the scene that the density is `of`, in which the
-    /// integrand has no narrow features: what others make of it, their densities may.
+    /// The quadrature runs over the variable of the product densities of the scene `of` the density, in which the integrand has no
+    /// narrow features.
     fn variance_of(&self, density: impl Fn(&Place) -> f64, kinks: &[f64], of: &Self) -> Option<f64> {
         let arc = self.arc?;
         let product = Product::new(of, arc, 17);

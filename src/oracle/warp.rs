@@ -1,14 +1,14 @@
-//! The variable `v` of the product density: `X = t' + r`, counted from its value at the start
-//! and bent so that the integrand's features are as wide as any other.
+//! The variable `v` of the product density: sections 5 and 6.1 of `docs/mathematics.md`.
 //!
-//! `X/h = tan(pi/4 + theta/2)` has `T` fall as `exp(-mu_t X)`; `Y = X - X_a` is bent by `Y = Y_c v/(e + 1 - v)`,
-//! `e = Y_c/Y_b`, which takes `[0, 1]` to `[0, Y_b]` and, where `Y_b` is far, half of it to about `Y_c`.
+//! `X = t' + r = h tan(pi/4 + theta/2)`, so that `T` is proportional to `exp(-mu_t X)`. `Y = X - X_a` is mapped by
+//! `Y = Y_c v/(e + 1 - v)`, `e = Y_c/Y_b`, which maps `[0, 1]` to `[0, Y_b]` and, if `Y_b` is far, half of it to about `Y_c`: all
+//! features of the integrand then have about the same width.
 
 use super::arc::{Angle, Arc};
 
 /// A value of the variable, by its distances from 0 and from 1.
 ///
-/// One of them would do, but not with all digits near the other end.
+/// Each is 1 less the other, but has no digits near the other end that way.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Variable {
     pub(super) v: f64,
@@ -71,7 +71,7 @@ impl Warp {
 
     /// The direction of a place: twice the difference of two half angles, whose tangents are `X/h`.
     ///
-    /// Sums of positive numbers alone: next to a near emitter the distance `t'` of the place has lost its digits.
+    /// All terms are positive: next to a near emitter `t'` of the place would have lost its digits.
     pub(super) fn angle(&self, at: Variable) -> Angle {
         let (h, y) = (self.arc.h, self.y(at));
         let x = self.x_a + y;
@@ -85,7 +85,7 @@ impl Warp {
         self.arc.cos_theta(self.angle(at)) / (self.x_a + self.y(at)) * dy_dv
     }
 
-    /// How far a place is behind the start and before the end \[m\]: `t' = (X - h^2/X)/2`.
+    /// The distances of a place from the start and to the end \[m\]: `t' = (X - h^2/X)/2`.
     fn offsets(&self, at: Variable) -> (f64, f64) {
         let h = self.arc.h;
         let y = self.y(at);
@@ -101,7 +101,7 @@ pub(super) fn half_angle(h: f64, t_prime: f64) -> f64 {
     if t_prime > 0.0 { t_prime + r } else { h / (r - t_prime) * h }
 }
 
-/// `X(b) - X(a)` \[m\] of two places, `length` apart, with all its digits.
+/// (5.8): `X(b) - X(a)` \[m\] of two places `length` apart, without cancellation.
 fn rise(h: f64, length: f64, a: f64, b: f64) -> f64 {
     length * (half_angle(h, a) + half_angle(h, b)) / (h.hypot(a) + h.hypot(b))
 }
