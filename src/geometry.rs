@@ -97,7 +97,7 @@ impl<I: Isa> EmitterLanes<I> {
 /// The largest `||v|^2 - 1|` of a unit vector `v`.
 const TOLERANCE: f32 = 2.001 * UNIT_TOLERANCE;
 
-/// The largest coordinate of which products stay within f32 \[m\].
+/// The largest coordinate \[m\] with products that stay within f32.
 const PLAIN: f32 = 1e15;
 
 /// The share of the variates, beyond those of half of the angle, of which a point is still measured from the end that is nearer to

@@ -18,7 +18,7 @@ const FEW_STEPS: usize = 8;
 /// The largest number of steps.
 const STEPS: usize = 24;
 
-/// The factor of `newton^2` in the estimate of what a step leaves of `f`: it stands for `f'''/(6 f')`, and for the error of a
+/// The factor of `newton^2` in the estimate of the residual after a step: it stands for `f'''/(6 f')`, and for the error of a
 /// rough curvature.
 const LEFT: f32 = 16384.0;
 

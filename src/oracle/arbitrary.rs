@@ -34,8 +34,8 @@ fn reach() -> impl Strategy<Value = (f32, f32)> {
 enum Shine {
     Even,
     Normal(Vec3),
-    /// Towards the ray, so many times `h` from the foot, and by so much beside it; by the sine of half of the outer angle
-    /// and the share of the inner cone.
+    /// A spot that points `along` times `h` from the foot of the perpendicular and by `beside` off the ray, with the sine of half of
+    /// the outer angle and the share of the inner cone.
     Spot {
         along: f32,
         beside: Vec3,

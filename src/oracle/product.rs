@@ -120,7 +120,7 @@ impl Product {
         self.knots[1..self.knots.len() - 1].iter().map(|knot| self.warp.t(knot.at)).collect()
     }
 
-    /// The knots around a place, the first of which is the last that `is_below` it.
+    /// The knots on both sides of a place: the last knot that `is_below` it, and the next.
     fn segment(&self, is_below: impl Fn(&Knot) -> bool) -> (&Knot, &Knot) {
         let i = self.knots.partition_point(is_below).clamp(1, self.knots.len() - 1);
         (&self.knots[i - 1], &self.knots[i])

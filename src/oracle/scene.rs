@@ -414,7 +414,7 @@ mod tests {
         fn the_integral_over_angle_is_that_over_distance(scene in scene()) {
             let expected = radiance_over_distance(&scene);
             let error = (scene.radiance() - expected).abs();
-            // what the rounding of an end makes where the light goes out at once
+            // the effect of the rounding of an end where the light ends abruptly
             let (t_a, t_b) = scene.lit().unwrap_or_default();
             let rounding = 2.0 * f64::EPSILON * (t_a * scene.integrand(t_a) + t_b * scene.integrand(t_b));
             // of subnormal numbers no digits are promised

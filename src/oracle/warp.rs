@@ -139,7 +139,7 @@ mod tests {
                 for v in [1e-9, 1e-3, 0.5, 0.999] {
                     let at = Variable::new(v);
                     let back = warp.at(warp.t(at));
-                    // what the rounding of t makes
+                    // the effect of the rounding of t
                     let slope = warp.slope(at) * h.hypot(warp.t(at) - t_h).powi(2) / h;
                     let rounding = 1e-13 + 4.0 * f64::EPSILON * warp.t(at) / slope;
                     assert!((back.v - v).abs() <= rounding, "{} is not {v}, h = {h}, y_c = {y_c}", back.v);

@@ -20,7 +20,7 @@ pub enum Stage {
     Geometry,
     /// The density is set up as well.
     SetUp,
-    /// Variates go through the inverse of the CDF as well; what is left is the point of the ray, and output.
+    /// The inverse of the CDF is applied to variates as well; only the point of the ray and output are left.
     Inversion,
 }
 

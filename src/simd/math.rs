@@ -85,7 +85,7 @@ pub(crate) fn angle_of<I: Isa>(isa: I, y: I::V, x: I::V) -> I::V {
             -3.333_33e-1,
         ],
     );
-    // The low digits of the right angles are added to what is small: the last sum rounds most.
+    // The low digits of the right angles are added to the small terms: the last sum rounds most.
     let back = x.lt(c(0.0));
     let steep = size.lt(y);
     let right_angles = I::V::select(steep, c(PI_2_HIGH), I::V::select(back, c(2.0 * PI_2_HIGH), c(0.0)));

@@ -14,8 +14,8 @@ use std::str::FromStr;
 
 /// Which density over distance is sampled.
 ///
-/// [choosing](crate::guide::choosing) says which one to take, and when no sample is needed at all. Each variant below has its
-/// density, and what it is for, costs and leaves of the noise.
+/// [choosing](crate::guide::choosing) says which one to take, and when no sample is needed at all. Each variant below states its
+/// density, its use, its cost and its variance.
 ///
 /// - **Density**: symbols and equations are those of [mathematics]; numbers without a point are equations of the paper
 ///   (Villeneuve et al. 2021).
@@ -35,6 +35,14 @@ use std::str::FromStr;
 ///
 /// For a spot, product densities have the falloff `S` in place of the cosine `N`. The others but `Transmittance` are those of an
 /// emitter without a normal, on the part of the ray inside the cone.
+///
+/// # Densities beside the integrand
+///
+/// All densities beside the integrand (grey, normalised), in dense fog that scatters forward (`mu_s` 1.5 per m, `g` 0.85), with an
+/// emitter 0.5 m beside the ray that turns away. The nearer a density is to the integrand, the smaller is `V`.
+/// `cargo run --release -- report --out report --quick` draws it, and three easier scenes.
+///
+#[doc = include_str!("../../docs/figure-3.svg")]
 ///
 /// [mathematics]: crate::guide::mathematics
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
