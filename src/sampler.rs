@@ -141,6 +141,7 @@ impl Sampler {
     /// | `t` of `PointNormal` | the same: 8 ulp for 99.9 %, 10 for 99.99 % of rays, 16 at most | all families | `tests/hard_cases.rs` |
     /// | `pdf` | 1e-5, relative, of [`pdf`](Self::pdf) at `t` | where `t` resolves `r` | `tests/densities.rs` |
     /// | `weight` | 2e-5, relative | all families, optical depth up to 30, density at least a thousandth of its mean | `tests/hard_cases.rs` |
+    /// | `weight` | its mean over `u` is the radiance | 200 random scenes; all 2^24 variates of some scenes | `tests/statistics.rs`, `tests/all_variates.rs` |
     /// | `r` | 4 ulp | all families | `tests/hard_cases.rs` |
     /// | bits | equal for equal inputs, whatever the place in the batch, its length and the number of threads | [default floating-point environment](Self#floating-point-environment) | `tests/invariance.rs` |
     ///
@@ -265,7 +266,8 @@ impl Sampler {
     /// `[t_min, t_max]`, and at most `f32::MAX`.
     ///
     /// # Accuracy
-    /// Of [`Precision::Exact`], up to an optical depth of 30. Where `N` is below 1e-3, errors are relative to `N` = 1e-3.
+    /// Of [`Precision::Exact`], up to an optical depth of 30; `Fast` has no bound. Where `N` is below 1e-3, errors are relative to
+    /// `N` = 1e-3.
     ///
     /// | error at the given `t` | where | test |
     /// |---|---|---|

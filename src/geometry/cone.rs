@@ -168,6 +168,7 @@ pub(crate) fn locate<I: Isa>(isa: I, ray: &RayLanes<I>, spot: &SpotLanes<I>) -> 
     let sin_squared = (one - outer) * (one + outer);
     let c2_less_beta2 =
         difference_of_squares(isa, [a[0] * over_a, a[1] * over_a, a[2] * over_a], line.direction(), outer, beta);
+    // (8.3), off the line, and on it by departure 3.
     let off_line = foot_squared.mul_add(sin_squared, -(g * g));
     let on_line = alpha_h.mul_add(alpha_h, -(h_squared * c2_less_beta2));
     let is_off = I::V::narrow(h_squared - foot_squared).le(zero);
@@ -175,7 +176,7 @@ pub(crate) fn locate<I: Isa>(isa: I, ray: &RayLanes<I>, spot: &SpotLanes<I>) -> 
     let met = zero.lt(I::V::narrow(hs_squared));
     let (hs_units, _) = root(isa, hs_squared.max(isa.splat_double(0.0)));
 
-    // H and B are in units, B twice.
+    // (8.4), (8.5): H is in units, B in their square.
     let (alpha_units, h2_units) = (alpha_h * unit, h_squared * unit_squared);
     let r2_units = alpha_units.mul_add(alpha_units, (beta * beta) * h2_units);
     let (_, over_r) = root(isa, r2_units);
@@ -190,6 +191,7 @@ pub(crate) fn locate<I: Isa>(isa: I, ray: &RayLanes<I>, spot: &SpotLanes<I>) -> 
     let clip_b = opens[1] & zero.lt(I::V::narrow(t_prime_max - edges[1]));
     let start = select(isa, clip_a, edges[0], t_prime_min);
     let end = select(isa, clip_b, edges[1], t_prime_max);
+    // Departure 1.
     let between_edges = I::V::narrow(outer * (hs_units + hs_units) * reciprocal(isa, c2_less_beta2 * unit));
     let whole = line.t_max - ray.t_min;
     let length = I::V::select(clip_a | clip_b, I::V::narrow(end - start), whole);
@@ -216,6 +218,7 @@ pub(crate) fn locate<I: Isa>(isa: I, ray: &RayLanes<I>, spot: &SpotLanes<I>) -> 
 
     let no = none(isa);
     let scaled = Scaled { start, end, unit, over_r };
+    // (8.8), (8.9)
     let before = scaled.ramp(isa, slopes[0], offsets[0], [clip_a, no]);
     let after = scaled.ramp(isa, -slopes[1], -offsets[1], [no, clip_b]);
 

@@ -62,6 +62,7 @@ impl<I: Isa> Line<I> {
         let foot = [along.mul_add(d[0], -e[0]), along.mul_add(d[1], -e[1]), along.mul_add(d[2], -e[2])];
 
         let t_max = ray.end(isa);
+        // (2.3)
         let t_prime = [ray.t_min.widen() - t_h, t_max.widen() - t_h];
         let t_prime_a = I::V::narrow(t_prime[0]);
         // The least h that f64 can tell from 0 at this distance.
@@ -126,13 +127,14 @@ pub(super) fn locate<I: Isa>(isa: I, ray: &RayLanes<I>, emitter: &EmitterLanes<I
     let c = |x| isa.splat(x);
     let line = Line::new(isa, ray, emitter.position);
     let n = widen::<I>(emitter.normal);
+    // (2.4)
     let beta_exact = dot(n, line.d) * line.unit;
     let alpha_h = dot(n, line.foot);
     let (t_max, [t_prime_min, t_prime_max]) = (line.t_max, line.t_prime);
     let (ta, tb) = (I::V::narrow(t_prime_min), I::V::narrow(t_prime_max));
     let length = t_max - ray.t_min;
 
-    // (2.4): the signs of m at the ends decide what is lit.
+    // The signs of m at the ends decide what is lit.
     let has_normal = emitter.has_normal;
     let m_a = I::V::narrow(beta_exact.mul_add(t_prime_min, alpha_h));
     let m_b = I::V::narrow(beta_exact.mul_add(t_prime_max, alpha_h));

@@ -41,9 +41,10 @@ pub(crate) struct Transmittance<I: Isa> {
 }
 
 impl<I: Isa> Transmittance<I> {
-    /// The density (3.1) at the distance `s` from `t_min` \[1/m\].
+    /// The density at the distance `s` from `t_min` \[1/m\].
     #[cfg_attr(optimized, inline(always))]
     fn at(&self, isa: I, s: I::V) -> I::V {
+        // (3.1)
         let falling = exp(isa, -(self.mu_t.widen() * s.widen())) * (self.mu_t / self.absorbed);
         I::V::select(self.uniform, isa.splat(1.0) / self.length, falling)
     }
