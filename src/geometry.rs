@@ -403,14 +403,14 @@ impl<I: Isa> Geometry<'_, I> {
         let offset = ((tau + tau) * (re_squared * scale)).min(self.lit.length);
         let by_angle = (h * scale) * tau.mul_add((-te).mul_add(tau, h + h), te);
         // Near the end, t' is more exact as the end's plus the offset.
-        let t_prime = I::V::select((offset + offset).lt(te.abs()), te + offset, by_angle);
+        let towards = I::V::select((offset + offset).lt(te.abs()), te + offset, by_angle);
         // t from the end or from the foot, whichever is nearer.
-        let near_end = offset.lt(t_prime.abs());
-        let way = I::V::select(near_end, offset, t_prime);
+        let near_end = offset.lt(towards.abs());
+        let way = I::V::select(near_end, offset, towards);
         let base = I::V::select(near_end, of_end(self.lit.a.t, self.lit.b.t), self.foot.t_h);
         let low = I::V::select(near_end, of_end(self.lit.a.t_low, self.lit.b.t_low), self.foot.t_h_low);
         let t = self.within(base + sign.mul_add(way, low));
-        let t_prime = sign * t_prime;
+        let t_prime = sign * towards;
 
         let rest = self.rest(isa, offset, t_prime, of_end(self.foot.b, self.foot.a));
         let r = self.foot.r(t_prime);
@@ -472,12 +472,12 @@ impl<I: Isa> Geometry<'_, I> {
     /// The point at the distance `s` from the start of the ray, no farther than its end.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn point_beyond(&self, isa: I, t_min: I::V, s: I::V, t_max: I::V) -> Point<I> {
-        let t = t_min.widen() + s.widen();
-        let exact = t - self.foot.exact_t_h();
+        let t_64 = t_min.widen() + s.widen();
+        let exact = t_64 - self.foot.exact_t_h();
         let t_prime = I::V::narrow(exact);
         let t_prime_low = I::V::narrow(exact - t_prime.widen());
-        let from_a = I::V::narrow((t - self.lit.a.t.widen()) - self.lit.a.t_low.widen());
-        let to_b = I::V::narrow((self.lit.b.t.widen() - t) + self.lit.b.t_low.widen());
+        let from_a = I::V::narrow((t_64 - self.lit.a.t.widen()) - self.lit.a.t_low.widen());
+        let to_b = I::V::narrow((self.lit.b.t.widen() - t_64) + self.lit.b.t_low.widen());
         let r = self.foot.r(t_prime);
         let m = self.m_inside(isa, from_a, to_b, r);
         let t = (t_min + s).min(t_max);

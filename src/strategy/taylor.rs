@@ -226,9 +226,9 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
 
         // Second piece: from its end, or from its start where that is near the start of the interval. Its mass may be less than
         // the rounding of the target. (3.7)-(3.9)
-        let (from_c, rest) = (target - self.mass_1, (rest * total).min(self.mass_2));
-        let by_start = !first & from_c.lt(rest) & width.lt(self.subtended * c(0.25));
-        let cosines = I::V::select(by_start, from_c, rest).max(total * c(NEAREST)) / self.p_c;
+        let (from_c, from_b) = (target - self.mass_1, (rest * total).min(self.mass_2));
+        let by_start = !first & from_c.lt(from_b) & width.lt(self.subtended * c(0.25));
+        let cosines = I::V::select(by_start, from_c, from_b).max(total * c(NEAREST)) / self.p_c;
         let n_end = I::V::select(by_start, self.n_c, self.n_b);
         let s_end = I::V::select(by_start, self.s_c, self.s_b);
         let by_cosines = tan_half_at_mass(isa, n_end, s_end, cosines);
