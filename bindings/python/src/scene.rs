@@ -1,0 +1,351 @@
+//! Emitters and media: one, one per ray in columns, or a table with an index per ray.
+
+use crate::columns::{Column, Length, Values, all_values, point, vector};
+use crate::error::refused;
+use airlight::{Emitter as OneEmitter, Medium as OneMedium};
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+
+/// Columns of an emitter, position and normal, and of a medium: `mu_a`, `mu_s` and `g`.
+const OF_EMITTER: usize = 6;
+const OF_MEDIUM: usize = 3;
+
+/// A point that lights the medium.
+///
+/// position: (3,), where it is [m].
+/// normal: (3,), of unit length: a piece of a surface, which shines to the side of its normal with the cosine;
+///     None: alike in all directions.
+///
+/// `Emitter.spot` makes one that shines into a cone.
+#[pyclass(frozen, eq, module = "airlight")]
+#[derive(PartialEq)]
+pub(crate) struct Emitter(pub(crate) OneEmitter);
+
+#[pymethods]
+impl Emitter {
+    #[new]
+    #[pyo3(signature = (position, normal = None))]
+    fn new(position: &Bound<'_, PyAny>, normal: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
+        let position = point("position", position)?;
+        let emitter = match normal {
+            None => OneEmitter::point(position),
+            Some(normal) => OneEmitter::point_normal(position, point("normal", normal)?),
+        };
+        emitter.map(Self).map_err(refused)
+    }
+
+    /// A point that shines into the cone around the unit vector `axis`.
+    ///
+    /// position: (3,) [m].
+    /// axis: (3,), of unit length, where it shines to.
+    /// cos_outer: the cosine of the angle from the axis beyond which it is dark, 0 or more.
+    /// cos_inner: the cosine of the angle up to which the intensity is full, from `cos_outer` to 1.
+    ///
+    /// In between the intensity falls off as `s^2 (3 - 2 s)`, with `s` linear in the cosine.
+    #[staticmethod]
+    fn spot(
+        position: &Bound<'_, PyAny>,
+        axis: &Bound<'_, PyAny>,
+        cos_outer: f32,
+        cos_inner: f32,
+    ) -> PyResult<Self> {
+        let (position, axis) = (point("position", position)?, point("axis", axis)?);
+        OneEmitter::spot(position, axis, cos_outer, cos_inner).map(Self).map_err(refused)
+    }
+
+    /// Where it is [m].
+    #[getter]
+    fn position(&self) -> (f32, f32, f32) {
+        self.0.position().into()
+    }
+
+    /// Its unit normal, if it has one.
+    #[getter]
+    fn normal(&self) -> Option<(f32, f32, f32)> {
+        self.0.normal().map(Into::into)
+    }
+
+    /// Where it shines to and the cosines of its outer and inner angle, if it is a spot.
+    #[getter]
+    fn cone(&self) -> Option<((f32, f32, f32), f32, f32)> {
+        self.0.cone().map(|cone| (cone.axis().into(), cone.cos_outer(), cone.cos_inner()))
+    }
+
+    fn __repr__(&self) -> String {
+        let position = self.position();
+        match (self.normal(), self.cone()) {
+            (_, Some((axis, outer, inner))) => format!("Emitter.spot({position:?}, {axis:?}, {outer:?}, {inner:?})"),
+            (Some(normal), None) => format!("Emitter({position:?}, {normal:?})"),
+            (None, None) => format!("Emitter({position:?})"),
+        }
+    }
+}
+
+/// A homogeneous medium with the Henyey-Greenstein phase function.
+///
+/// mu_a, mu_s: absorption and scattering coefficient [1/m], a number each; or three or four, one for each channel of a
+///     colour.
+/// g: mean cosine of the scattering angle, from -1 to 1; g > 0 scatters forward.
+#[pyclass(frozen, eq, module = "airlight")]
+#[derive(PartialEq)]
+pub(crate) struct Medium(OneMedium);
+
+#[pymethods]
+impl Medium {
+    #[new]
+    fn new(mu_a: &Bound<'_, PyAny>, mu_s: &Bound<'_, PyAny>, g: f32) -> PyResult<Self> {
+        let py = mu_a.py();
+        let (of_a, of_s) = (Column::new("mu_a", mu_a)?, Column::new("mu_s", mu_s)?);
+        let channels = of_a.length(py).max(of_s.length(py));
+        for (field, column) in [("mu_a", &of_a), ("mu_s", &of_s)] {
+            let length = column.length(py).or(channels);
+            if length != channels || !matches!(channels, None | Some(1 | 3 | 4)) {
+                let channels = length.unwrap_or(1);
+                let error = format!("{field} has {channels} channels, expected 1, 3 or 4, the same for mu_a and mu_s");
+                return Err(PyValueError::new_err(error));
+            }
+        }
+        let count = channels.unwrap_or(1);
+        let (mu_a, mu_s) = (of_a.values(py, count)?, of_s.values(py, count)?);
+        let medium = match (&*mu_a, &*mu_s) {
+            (&[a], &[s]) => OneMedium::new(a, s, g),
+            (&[a0, a1, a2], &[s0, s1, s2]) => OneMedium::coloured([a0, a1, a2], [s0, s1, s2], g),
+            (&[a0, a1, a2, a3], &[s0, s1, s2, s3]) => OneMedium::coloured([a0, a1, a2, a3], [s0, s1, s2, s3], g),
+            _ => unreachable!("1, 3 or 4 channels"),
+        };
+        medium.map(Self).map_err(refused)
+    }
+
+    /// Absorption coefficient [1/m]; a tuple with one for each channel if the medium has several.
+    #[getter]
+    fn mu_a<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.by_channel(py, OneMedium::mu_a)
+    }
+
+    /// Scattering coefficient [1/m]; a tuple with one for each channel if the medium has several.
+    #[getter]
+    fn mu_s<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.by_channel(py, OneMedium::mu_s)
+    }
+
+    /// Mean cosine of the scattering angle.
+    #[getter]
+    fn g(&self) -> f32 {
+        self.0.g()
+    }
+
+    /// How many channels it has.
+    #[getter]
+    fn channels(&self) -> usize {
+        self.0.channels()
+    }
+
+    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        Ok(format!("Medium({}, {}, {:?})", self.mu_a(py)?.repr()?, self.mu_s(py)?.repr()?, self.g()))
+    }
+}
+
+impl Medium {
+    fn by_channel<'py>(&self, py: Python<'py>, of: impl Fn(&OneMedium) -> f32) -> PyResult<Bound<'py, PyAny>> {
+        let values: Vec<f32> = (0..).map_while(|c| self.0.channel(c)).map(|medium| of(&medium)).collect();
+        match values[..] {
+            [value] => Ok(value.into_pyobject(py)?.into_any()),
+            _ => Ok(PyTuple::new(py, values)?.into_any()),
+        }
+    }
+}
+
+/// An emitter for each ray: `Emitters.each` from columns, `Emitters.table` from a list with an index per ray.
+#[pyclass(frozen, module = "airlight")]
+pub(crate) struct Emitters(PerRay<OneEmitter, OF_EMITTER>);
+
+#[pymethods]
+impl Emitters {
+    /// One for each ray.
+    ///
+    /// position: (n, 3) or a tuple of three columns [m].
+    /// normal: the same, of unit length; (0, 0, 0) where the emitter has none. None: none has one.
+    ///
+    /// float32 columns in a tuple are not copied.
+    #[staticmethod]
+    #[pyo3(signature = (position, normal = None))]
+    fn each(position: &Bound<'_, PyAny>, normal: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
+        let [px, py, pz] = vector("position", position)?;
+        let none = || [(); 3].map(|()| Column::One(0.0));
+        let [nx, ny, nz] = normal.map_or_else(|| Ok(none()), |normal| vector("normal", normal))?;
+        Ok(Self(PerRay::Each([px, py, pz, nx, ny, nz])))
+    }
+
+    /// `table[index[i]]` for ray i.
+    ///
+    /// table: a list of Emitter.
+    /// index: (n,), integers; one out of range makes its ray invalid.
+    #[staticmethod]
+    fn table(table: Vec<PyRef<'_, Emitter>>, index: &Bound<'_, PyAny>) -> PyResult<Self> {
+        PerRay::table(table.iter().map(|emitter| emitter.0).collect(), index).map(Self)
+    }
+}
+
+/// A medium for each ray: `Media.each` from columns, `Media.table` from a list with an index per ray.
+#[pyclass(frozen, module = "airlight")]
+pub(crate) struct Media(PerRay<OneMedium, OF_MEDIUM>);
+
+#[pymethods]
+impl Media {
+    /// One for each ray.
+    ///
+    /// mu_a, mu_s: (n,), absorption and scattering coefficients [1/m].
+    /// g: (n,), mean cosines.
+    ///
+    /// Each may be one number for all rays. float32 columns are not copied.
+    #[staticmethod]
+    fn each(mu_a: &Bound<'_, PyAny>, mu_s: &Bound<'_, PyAny>, g: &Bound<'_, PyAny>) -> PyResult<Self> {
+        Ok(Self(PerRay::Each([Column::new("mu_a", mu_a)?, Column::new("mu_s", mu_s)?, Column::new("g", g)?])))
+    }
+
+    /// `table[index[i]]` for ray i.
+    ///
+    /// table: a list of Medium.
+    /// index: (n,), integers; one out of range makes its ray invalid.
+    #[staticmethod]
+    fn table(table: Vec<PyRef<'_, Medium>>, index: &Bound<'_, PyAny>) -> PyResult<Self> {
+        PerRay::table(table.iter().map(|medium| medium.0).collect(), index).map(Self)
+    }
+}
+
+/// A thing of `K` numbers, and what its columns are called in a call.
+pub(crate) trait Entry<const K: usize>: Copy {
+    const COLUMNS: [&'static str; K];
+    const INDEX: &'static str;
+}
+
+impl Entry<OF_EMITTER> for OneEmitter {
+    const COLUMNS: [&'static str; OF_EMITTER] = {
+        let (position, normal) = ("emitter.position", "emitter.normal");
+        [position, position, position, normal, normal, normal]
+    };
+    const INDEX: &'static str = "emitter.index";
+}
+
+impl Entry<OF_MEDIUM> for OneMedium {
+    const COLUMNS: [&'static str; OF_MEDIUM] = ["medium.mu_a", "medium.mu_s", "medium.g"];
+    const INDEX: &'static str = "medium.index";
+}
+
+/// A thing for each ray, in columns or in a table.
+pub(crate) enum PerRay<T, const K: usize> {
+    Each([Column<f32>; K]),
+    Table { table: Vec<T>, index: Column<u32> },
+}
+
+impl<T, const K: usize> PerRay<T, K> {
+    fn table(table: Vec<T>, index: &Bound<'_, PyAny>) -> PyResult<Self> {
+        if table.is_empty() {
+            return Err(PyValueError::new_err("table is empty"));
+        }
+        Ok(Self::Table { table, index: Column::new("index", index)? })
+    }
+}
+
+/// The argument `emitter` of a call.
+pub(crate) enum OfEmitter<'py> {
+    One(PyRef<'py, Emitter>),
+    PerRay(PyRef<'py, Emitters>),
+}
+
+impl<'py> OfEmitter<'py> {
+    pub(crate) fn new(value: &Bound<'py, PyAny>) -> PyResult<Self> {
+        match (value.extract(), value.extract()) {
+            (Ok(one), _) => Ok(Self::One(one)),
+            (_, Ok(many)) => Ok(Self::PerRay(many)),
+            _ => Err(PyTypeError::new_err(format!("emitter is {}, expected Emitter or Emitters", value.get_type()))),
+        }
+    }
+
+    pub(crate) fn source(&self) -> Source<'_, OneEmitter, OF_EMITTER> {
+        match self {
+            Self::One(one) => Source::One(one.0),
+            Self::PerRay(many) => Source::PerRay(&many.0),
+        }
+    }
+}
+
+/// The argument `medium` of a call.
+pub(crate) enum OfMedium<'py> {
+    One(PyRef<'py, Medium>),
+    PerRay(PyRef<'py, Media>),
+}
+
+impl<'py> OfMedium<'py> {
+    pub(crate) fn new(value: &Bound<'py, PyAny>) -> PyResult<Self> {
+        match (value.extract(), value.extract()) {
+            (Ok(one), _) => Ok(Self::One(one)),
+            (_, Ok(many)) => Ok(Self::PerRay(many)),
+            _ => Err(PyTypeError::new_err(format!("medium is {}, expected Medium or Media", value.get_type()))),
+        }
+    }
+
+    pub(crate) fn source(&self) -> Source<'_, OneMedium, OF_MEDIUM> {
+        match self {
+            Self::One(one) => Source::One(one.0),
+            Self::PerRay(many) => Source::PerRay(&many.0),
+        }
+    }
+}
+
+/// Where each ray's emitter or medium comes from.
+pub(crate) enum Source<'a, T, const K: usize> {
+    One(T),
+    PerRay(&'a PerRay<T, K>),
+}
+
+impl<'a, T: Entry<K>, const K: usize> Source<'a, T, K> {
+    /// Has its columns agree with the others on the length of the batch.
+    pub(crate) fn agree(&self, py: Python<'_>, length: &mut Length) -> PyResult<()> {
+        match self {
+            Self::One(_) => Ok(()),
+            Self::PerRay(PerRay::Each(columns)) => {
+                let mut columns = T::COLUMNS.into_iter().zip(columns);
+                columns.try_for_each(|(field, column)| length.agree(field, column.length(py)))
+            }
+            Self::PerRay(PerRay::Table { index, .. }) => length.agree(T::INDEX, index.length(py)),
+        }
+    }
+
+    /// Its values for so many rays.
+    pub(crate) fn spread<'py>(&self, py: Python<'py>, rays: usize) -> PyResult<Spread<'a, 'py, T, K>> {
+        Ok(match *self {
+            Self::One(one) => Spread::One(one),
+            Self::PerRay(PerRay::Each(columns)) => Spread::Each(all_values(py, columns, rays)?),
+            Self::PerRay(PerRay::Table { table, index }) => Spread::Table(table, index.values(py, rays)?),
+        })
+    }
+}
+
+/// The emitters or media of so many rays.
+pub(crate) enum Spread<'a, 'py, T, const K: usize> {
+    One(T),
+    Each([Values<'py, f32>; K]),
+    Table(&'a [T], Values<'py, u32>),
+}
+
+impl Spread<'_, '_, OneEmitter, OF_EMITTER> {
+    pub(crate) fn emitters(&self) -> airlight::Emitters<'_> {
+        match self {
+            Self::One(one) => airlight::Emitters::one(*one),
+            Self::Each([px, py, pz, nx, ny, nz]) => airlight::Emitters::each([px, py, pz], [nx, ny, nz]),
+            Self::Table(table, index) => airlight::Emitters::table(table, index),
+        }
+    }
+}
+
+impl Spread<'_, '_, OneMedium, OF_MEDIUM> {
+    pub(crate) fn media(&self) -> airlight::Media<'_> {
+        match self {
+            Self::One(one) => airlight::Media::one(*one),
+            Self::Each([mu_a, mu_s, g]) => airlight::Media::each(mu_a, mu_s, g),
+            Self::Table(table, index) => airlight::Media::table(table, index),
+        }
+    }
+}
