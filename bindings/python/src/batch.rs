@@ -5,10 +5,7 @@ use crate::error::refused;
 use crate::scene::{OfEmitter, OfMedium};
 use airlight::{Counts, Emitters, Error, Media, Rays};
 use numpy::prelude::*;
-use numpy::{Element, PyArrayDyn, PyReadwriteArrayDyn};
 use pyo3::prelude::*;
-use pyo3::sync::PyOnceLock;
-use pyo3::types::PyTuple;
 
 /// Origin, direction, `t_min`, `t_max`, emitter and medium, as they are passed.
 pub(crate) type Scene<'py> = [Bound<'py, PyAny>; 6];
@@ -84,11 +81,11 @@ impl Given {
         if let Some(number) = f32::plain(value) {
             return Ok(Self { field, column: Column::One(number), per_ray: None });
         }
-        let array = array::<f32>(field, value)?;
+        let array = array::<f32>(field.into(), value)?;
         let (column, per_ray) = match *array.shape() {
             [] | [_] => (Column::new(field, &array)?, None),
             [_, per_ray] if per_ray > 0 => (Column::Many(array.reshape([array.len()])?.unbind()), Some(per_ray)),
-            ref shape => return Err(unlike(field, shape, "(), (n,) or (n, k) with k > 0")),
+            ref shape => return Err(unlike(field.into(), shape, "(), (n,) or (n, k) with k > 0")),
         };
         Ok(Self { field, column, per_ray })
     }
@@ -106,17 +103,4 @@ impl Given {
     pub(crate) fn values<'py>(&self, py: Python<'py>, shape: &[usize]) -> PyResult<Values<'py, f32>> {
         self.column.values(py, shape.iter().product())
     }
-}
-
-/// A new array of zeros.
-pub(crate) fn output<'py, T: Element>(py: Python<'py>, shape: &[usize]) -> PyResult<PyReadwriteArrayDyn<'py, T>> {
-    static EMPTY: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
-    let empty = EMPTY.import(py, "numpy", "zeros")?;
-    let array = empty.call1((PyTuple::new(py, shape)?, numpy::dtype::<T>(py)))?;
-    Ok(array.cast_into::<PyArrayDyn<T>>()?.try_readwrite()?)
-}
-
-/// That array once it is written: a scalar where it has no dimension.
-pub(crate) fn finished<'py, T: Element>(array: PyReadwriteArrayDyn<'py, T>) -> PyResult<Bound<'py, PyAny>> {
-    if array.ndim() == 0 { array.get_item(()) } else { Ok(array.as_any().clone()) }
 }

@@ -1,8 +1,9 @@
 //! The calls behind the functions of the package: arguments by position, results as tuples.
 
-use crate::batch::{Batch, Given, Scene, finished, output};
+use crate::batch::{Batch, Given, Scene};
 use crate::columns::Column;
 use crate::error::{bad, refused};
+use crate::output::Output;
 use crate::scene::Emitter;
 use airlight::{Counts, Emitters, Error, Integral, Media, Nodes, Precision, Rays, Sampler, Samples, Strategy, Threads};
 use pyo3::prelude::*;
@@ -30,18 +31,16 @@ pub(crate) fn sample<'py>(
     let u = Given::new("u", u)?;
     let (rays, shape) = batch.shape_with(py, &u)?;
 
-    let (mut t, mut pdf) = (output(py, &shape)?, output(py, &shape)?);
-    let mut weight = weight.then(|| output(py, &shape)).transpose()?;
-    let mut r = r.then(|| output(py, &shape)).transpose()?;
-    let values = u.values(py, &shape)?;
-    let u = &*values;
-    let mut samples = Samples::new(t.as_slice_mut()?, pdf.as_slice_mut()?);
-    samples.weight = weight.as_mut().map(|weight| weight.as_slice_mut()).transpose()?;
-    samples.r = r.as_mut().map(|r| r.as_slice_mut()).transpose()?;
+    // Of what is not wanted the memory is never touched.
+    let (mut block, values) = (Output::new(py, 4, &shape)?, u.values(py, &shape)?);
+    let (u, [t, pdf, weights, distances]) = (&*values, block.slices()?);
+    let mut samples = Samples::new(t, pdf);
+    samples.weight = weight.then_some(weights);
+    samples.r = r.then_some(distances);
     let counts = batch.run(py, rays, |rays, emitters, media| sampler.sample(rays, emitters, media, u, &mut samples))?;
 
-    let (weight, r) = (weight.map(finished).transpose()?, r.map(finished).transpose()?);
-    Ok((finished(t)?, finished(pdf)?, weight, r, tuple(counts)))
+    let array = |k, wanted: bool| wanted.then(|| block.array(k)).transpose();
+    Ok((block.array(0)?, block.array(1)?, array(2, weight)?, array(3, r)?, tuple(counts)))
 }
 
 /// `airlight.pdf`.
@@ -97,11 +96,10 @@ fn at_distance<'py>(
     let batch = Batch::new(scene)?;
     let t = Given::new("t", t)?;
     let (rays, shape) = batch.shape_with(py, &t)?;
-    let mut array = output(py, &shape)?;
-    let values = t.values(py, &shape)?;
-    let (t, out) = (&*values, array.as_slice_mut()?);
+    let (mut block, values) = (Output::new(py, 1, &shape)?, t.values(py, &shape)?);
+    let (t, [out]) = (&*values, block.slices()?);
     batch.run(py, rays, |rays, emitters, media| call(&sampler, rays, emitters, media, t, out))?;
-    finished(array)
+    block.array(0)
 }
 
 /// `airlight.radiance`.
@@ -116,10 +114,10 @@ pub(crate) fn radiance<'py>(
     let integral = integral(nodes, precision, threads)?;
     let batch = Batch::new(&scene)?;
     let length = batch.length(py)?;
-    let mut array = output(py, &length.shape())?;
-    let out = array.as_slice_mut()?;
+    let mut block = Output::new(py, 1, &length.shape())?;
+    let [out] = block.slices()?;
     batch.run(py, length.rays(), |rays, emitters, media| integral.radiance(rays, emitters, media, out))?;
-    finished(array)
+    block.array(0)
 }
 
 /// `airlight.choose`: index, probability and counts. The emitter of the scene is any one of the table.
@@ -145,14 +143,13 @@ pub(crate) fn choose<'py>(
     let u = Given::one_each("u", u)?;
     let (rays, shape) = batch.shape_with(py, &u)?;
 
-    let (mut index, mut probability) = (output(py, &shape)?, output(py, &shape)?);
+    let (mut index, mut probability) = (Output::new(py, 1, &shape)?, Output::new(py, 1, &shape)?);
     let (weights, values) = (weights.values(py, table.len())?, u.values(py, &shape)?);
     let (weights, u) = (&*weights, &*values);
-    let (index_out, probability_out) = (index.as_slice_mut()?, probability.as_slice_mut()?);
-    let counts = batch.run(py, rays, |rays, _, media| {
-        integral.choose(rays, &table, weights, media, u, index_out, probability_out)
-    })?;
-    Ok((finished(index)?, finished(probability)?, tuple(counts)))
+    let ([index_out], [probability_out]) = (index.slices()?, probability.slices()?);
+    let counts = batch
+        .run(py, rays, |rays, _, media| integral.choose(rays, &table, weights, media, u, index_out, probability_out))?;
+    Ok((index.array(0)?, probability.array(0)?, tuple(counts)))
 }
 
 /// The sampler of a call's options.

@@ -1,11 +1,13 @@
 //! Columns of numbers, from what Python passes: scalars, arrays, and what numpy makes arrays of.
 
+use crate::output::Output;
 use numpy::prelude::*;
 use numpy::{Element, PyArray1, PyArrayDyn, PyReadonlyArray1};
 use pyo3::exceptions::{PyMemoryError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyFloat, PyInt, PyTuple};
+use std::fmt::{self, Display};
 use std::ops::Deref;
 
 /// What an array may hold: `f32`, or `u32` for an index.
@@ -34,8 +36,27 @@ impl Number for u32 {
     }
 }
 
+/// What an argument is called: its name, and which one of a tuple.
+#[derive(Clone, Copy)]
+pub(crate) struct Field(&'static str, Option<usize>);
+
+impl From<&'static str> for Field {
+    fn from(name: &'static str) -> Self {
+        Self(name, None)
+    }
+}
+
+impl Display for Field {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self(name, None) => f.write_str(name),
+            Self(name, Some(k)) => write!(f, "{name}[{k}]"),
+        }
+    }
+}
+
 /// An array of any shape, its values next to each other in row-major order: `value` itself where it is one.
-pub(crate) fn array<'py, T: Number>(field: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<T>>> {
+pub(crate) fn array<'py, T: Number>(field: Field, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<T>>> {
     if let Ok(array) = value.cast::<PyArrayDyn<T>>()
         && array.is_c_contiguous()
         && array.is_aligned()
@@ -45,7 +66,7 @@ pub(crate) fn array<'py, T: Number>(field: &str, value: &Bound<'py, PyAny>) -> P
     static ARRAYS: PyOnceLock<Py<PyModule>> = PyOnceLock::new();
     let py = value.py();
     let arrays = ARRAYS.get_or_try_init(py, || py.import("airlight._arrays").map(Bound::unbind))?;
-    Ok(arrays.bind(py).call_method1(T::CONVERT, (field, value))?.cast_into()?)
+    Ok(arrays.bind(py).call_method1(T::CONVERT, (field.to_string(), value))?.cast_into()?)
 }
 
 /// One value for all rays, or one for each.
@@ -56,7 +77,8 @@ pub(crate) enum Column<T> {
 
 impl<T: Number> Column<T> {
     /// A column from a number or from an array of one dimension, of which nothing is copied if it holds `T` already.
-    pub(crate) fn new(field: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
+    pub(crate) fn new(field: impl Into<Field>, value: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let field = field.into();
         if let Some(number) = T::plain(value) {
             return Ok(Self::One(number));
         }
@@ -130,30 +152,38 @@ impl<T: Element> Deref for Values<'_, T> {
 }
 
 /// Three columns: a tuple of them, an array of shape (n, 3), or (3,) for all rays.
-pub(crate) fn vector(field: &str, value: &Bound<'_, PyAny>) -> PyResult<[Column<f32>; 3]> {
+pub(crate) fn vector(field: &'static str, value: &Bound<'_, PyAny>) -> PyResult<[Column<f32>; 3]> {
     const EXPECTED: &str = "(3,), (n, 3) or a tuple of three columns";
     if let Ok(columns) = value.cast::<PyTuple>() {
-        let column = |k| Column::new(&format!("{field}[{k}]"), &columns.get_item(k)?);
+        let column = |k| Column::new(Field(field, Some(k)), &columns.get_item(k)?);
         return match columns.len() {
             3 => Ok([column(0)?, column(1)?, column(2)?]),
             length => Err(PyValueError::new_err(format!("{field} is a tuple of {length}, expected {EXPECTED}"))),
         };
     }
-    let array = array::<f32>(field, value)?;
+    let array = array::<f32>(field.into(), value)?;
     let values = array.try_readonly()?;
     let rows = values.as_slice()?.as_chunks::<3>().0;
     match (array.shape(), rows) {
         ([3], [row]) => Ok(row.map(Column::One)),
-        ([_, 3], rows) => {
-            let column = |k: usize| PyArray1::from_iter(value.py(), rows.iter().map(|row| row[k]));
-            Ok([0, 1, 2].map(|k| Column::Many(column(k).unbind())))
-        }
-        (shape, _) => Err(unlike(field, shape, EXPECTED)),
+        ([n, 3], rows) => columns_of(value.py(), rows, *n),
+        (shape, _) => Err(unlike(field.into(), shape, EXPECTED)),
     }
 }
 
+/// The columns of `n` rows.
+fn columns_of(py: Python<'_>, rows: &[[f32; 3]], n: usize) -> PyResult<[Column<f32>; 3]> {
+    let mut columns = Output::new(py, 3, &[n])?;
+    let [x, y, z] = columns.slices()?;
+    for (((x, y), z), row) in x.iter_mut().zip(y).zip(z).zip(rows) {
+        [*x, *y, *z] = *row;
+    }
+    let column = |k| PyResult::Ok(Column::Many(columns.array(k)?.cast_into()?.unbind()));
+    Ok([column(0)?, column(1)?, column(2)?])
+}
+
 /// A point or a direction: a vector for all rays.
-pub(crate) fn point(field: &str, value: &Bound<'_, PyAny>) -> PyResult<[f32; 3]> {
+pub(crate) fn point(field: &'static str, value: &Bound<'_, PyAny>) -> PyResult<[f32; 3]> {
     match vector(field, value)? {
         [Column::One(x), Column::One(y), Column::One(z)] => Ok([x, y, z]),
         _ => Err(PyValueError::new_err(format!("{field} is more than one vector, expected shape (3,)"))),
@@ -161,7 +191,7 @@ pub(crate) fn point(field: &str, value: &Bound<'_, PyAny>) -> PyResult<[f32; 3]>
 }
 
 /// The error of an argument of the wrong shape.
-pub(crate) fn unlike(field: &str, shape: &[usize], expected: &str) -> PyErr {
+pub(crate) fn unlike(field: Field, shape: &[usize], expected: &str) -> PyErr {
     let lengths = shape.iter().map(usize::to_string).collect::<Vec<_>>().join(", ");
     let comma = if shape.len() == 1 { "," } else { "" };
     PyValueError::new_err(format!("{field} has shape ({lengths}{comma}), expected {expected}"))

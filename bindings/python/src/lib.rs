@@ -1,12 +1,13 @@
 //! The native part of the Python package `airlight`.
 //!
-//! `columns` has numbers out of Python objects, `scene` the emitters and media, `batch` what a call reads and writes,
+//! `output` has new arrays, `columns` numbers out of Python objects, `scene` emitters and media, `batch` what a call reads, and
 //! `calls` the functions. What users see is documented in `python/airlight`.
 
 mod batch;
 mod calls;
 mod columns;
 mod error;
+mod output;
 mod scene;
 
 #[pyo3::pymodule]

@@ -44,12 +44,7 @@ impl Emitter {
     ///
     /// In between the intensity falls off as `s^2 (3 - 2 s)`, with `s` linear in the cosine.
     #[staticmethod]
-    fn spot(
-        position: &Bound<'_, PyAny>,
-        axis: &Bound<'_, PyAny>,
-        cos_outer: f32,
-        cos_inner: f32,
-    ) -> PyResult<Self> {
+    fn spot(position: &Bound<'_, PyAny>, axis: &Bound<'_, PyAny>, cos_outer: f32, cos_inner: f32) -> PyResult<Self> {
         let (position, axis) = (point("position", position)?, point("axis", axis)?);
         OneEmitter::spot(position, axis, cos_outer, cos_inner).map(Self).map_err(refused)
     }
@@ -120,13 +115,13 @@ impl Medium {
     /// Absorption coefficient [1/m]; a tuple with one for each channel if the medium has several.
     #[getter]
     fn mu_a<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        self.by_channel(py, OneMedium::mu_a)
+        plain(py, &self.by_channel(OneMedium::mu_a))
     }
 
     /// Scattering coefficient [1/m]; a tuple with one for each channel if the medium has several.
     #[getter]
     fn mu_s<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        self.by_channel(py, OneMedium::mu_s)
+        plain(py, &self.by_channel(OneMedium::mu_s))
     }
 
     /// Mean cosine of the scattering angle.
@@ -141,18 +136,26 @@ impl Medium {
         self.0.channels()
     }
 
-    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
-        Ok(format!("Medium({}, {}, {:?})", self.mu_a(py)?.repr()?, self.mu_s(py)?.repr()?, self.g()))
+    fn __repr__(&self) -> String {
+        let (mu_a, mu_s) = (self.by_channel(OneMedium::mu_a), self.by_channel(OneMedium::mu_s));
+        match (&mu_a[..], &mu_s[..]) {
+            ([mu_a], [mu_s]) => format!("Medium({mu_a:?}, {mu_s:?}, {:?})", self.g()),
+            _ => format!("Medium({mu_a:?}, {mu_s:?}, {:?})", self.g()),
+        }
     }
 }
 
 impl Medium {
-    fn by_channel<'py>(&self, py: Python<'py>, of: impl Fn(&OneMedium) -> f32) -> PyResult<Bound<'py, PyAny>> {
-        let values: Vec<f32> = (0..).map_while(|c| self.0.channel(c)).map(|medium| of(&medium)).collect();
-        match values[..] {
-            [value] => Ok(value.into_pyobject(py)?.into_any()),
-            _ => Ok(PyTuple::new(py, values)?.into_any()),
-        }
+    fn by_channel(&self, of: impl Fn(&OneMedium) -> f32) -> Vec<f32> {
+        (0..).map_while(|c| self.0.channel(c)).map(|medium| of(&medium)).collect()
+    }
+}
+
+/// A number, or a tuple of several.
+fn plain<'py>(py: Python<'py>, values: &[f32]) -> PyResult<Bound<'py, PyAny>> {
+    match *values {
+        [value] => Ok(value.into_pyobject(py)?.into_any()),
+        _ => Ok(PyTuple::new(py, values)?.into_any()),
     }
 }
 
