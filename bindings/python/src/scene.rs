@@ -90,18 +90,16 @@ pub(crate) struct Medium(OneMedium);
 impl Medium {
     #[new]
     fn new(mu_a: &Bound<'_, PyAny>, mu_s: &Bound<'_, PyAny>, g: f32) -> PyResult<Self> {
+        const EXPECTED: &str = "1, 3 or 4, and mu_a and mu_s as many";
         let py = mu_a.py();
         let (of_a, of_s) = (Column::new("mu_a", mu_a)?, Column::new("mu_s", mu_s)?);
-        let channels = of_a.length(py).max(of_s.length(py));
+        let count = of_a.length(py).max(of_s.length(py)).unwrap_or(1);
         for (field, column) in [("mu_a", &of_a), ("mu_s", &of_s)] {
-            let length = column.length(py).or(channels);
-            if length != channels || !matches!(channels, None | Some(1 | 3 | 4)) {
-                let channels = length.unwrap_or(1);
-                let error = format!("{field} has {channels} channels, expected 1, 3 or 4, the same for mu_a and mu_s");
-                return Err(PyValueError::new_err(error));
+            let length = column.length(py).unwrap_or(1);
+            if length != 1 && (length != count || !matches!(count, 3 | 4)) {
+                return Err(PyValueError::new_err(format!("{field} has {length} channels, expected {EXPECTED}")));
             }
         }
-        let count = channels.unwrap_or(1);
         let (mu_a, mu_s) = (of_a.values(py, count)?, of_s.values(py, count)?);
         let medium = match (&*mu_a, &*mu_s) {
             (&[a], &[s]) => OneMedium::new(a, s, g),
