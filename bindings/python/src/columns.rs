@@ -2,7 +2,7 @@
 
 use crate::output::Output;
 use numpy::prelude::*;
-use numpy::{Element, PyArray1, PyArrayDyn, PyReadonlyArray1};
+use numpy::{Element, PyArray1, PyArrayDyn, PyReadonlyArray1, PyUntypedArray};
 use pyo3::exceptions::{PyMemoryError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
@@ -151,15 +151,13 @@ impl<T: Element> Deref for Values<'_, T> {
     }
 }
 
-/// Three columns: a tuple of them, an array of shape (n, 3), or (3,) for all rays.
+const VECTOR: &str = "(3,), (n, 3) or a tuple of three columns";
+
+/// Three columns: `components`, or those of an array of shape (n, 3), or (3,) for all rays.
 pub(crate) fn vector(field: &'static str, value: &Bound<'_, PyAny>) -> PyResult<[Column<f32>; 3]> {
-    const EXPECTED: &str = "(3,), (n, 3) or a tuple of three columns";
-    if let Ok(columns) = value.cast::<PyTuple>() {
-        let column = |k| Column::new(Field(field, Some(k)), &columns.get_item(k)?);
-        return match columns.len() {
-            3 => Ok([column(0)?, column(1)?, column(2)?]),
-            length => Err(PyValueError::new_err(format!("{field} is a tuple of {length}, expected {EXPECTED}"))),
-        };
+    if let Some([x, y, z]) = components(field, value)? {
+        let column = |k, value| Column::new(Field(field, Some(k)), value);
+        return Ok([column(0, &x)?, column(1, &y)?, column(2, &z)?]);
     }
     let array = array::<f32>(field.into(), value)?;
     let values = array.try_readonly()?;
@@ -167,8 +165,22 @@ pub(crate) fn vector(field: &'static str, value: &Bound<'_, PyAny>) -> PyResult<
     match (array.shape(), rows) {
         ([3], [row]) => Ok(row.map(Column::One)),
         ([n, 3], rows) => columns_of(value.py(), rows, *n),
-        (shape, _) => Err(unlike(field.into(), shape, EXPECTED)),
+        (shape, _) => Err(unlike(field.into(), shape, VECTOR)),
     }
+}
+
+/// The three of a tuple, or x, y and z of an object that has them, as the vectors of Dr.Jit do.
+fn components<'py>(field: &str, value: &Bound<'py, PyAny>) -> PyResult<Option<[Bound<'py, PyAny>; 3]>> {
+    if let Ok(tuple) = value.cast::<PyTuple>() {
+        let length = tuple.len();
+        let unlike = |_| PyValueError::new_err(format!("{field} is a tuple of {length}, expected {VECTOR}"));
+        return tuple.extract().map(Some).map_err(unlike);
+    }
+    if value.is_instance_of::<PyUntypedArray>() {
+        return Ok(None);
+    }
+    let [x, y, z] = [value.getattr_opt("x")?, value.getattr_opt("y")?, value.getattr_opt("z")?];
+    Ok(x.zip(y).zip(z).map(|((x, y), z)| [x, y, z]))
 }
 
 /// The columns of `n` rows.

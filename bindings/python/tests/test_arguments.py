@@ -102,6 +102,14 @@ def test_columns_of_float32_are_used_where_they_lie():
     assert before.t[1] == before.t[0] == after.t[0] != after.t[1]
 
 
+def test_an_object_with_x_y_and_z_is_three_columns():
+    x, y, z = np.eye(3)
+    vectors = types.SimpleNamespace(x=x, y=y, z=0), types.SimpleNamespace(x=0, y=0, z=z + [1, 1, 0])
+    samples = airlight.sample(**SCENE | {"origin": vectors[0], "direction": vectors[1]}, u=0.5)
+    expected = airlight.sample(**SCENE | {"origin": [[1, 0, 0], [0, 1, 0], [0, 0, 0]]}, u=0.5)
+    assert np.array_equal(samples.t, expected.t)
+
+
 def test_scalars_in_scalars_out():
     samples = airlight.sample(**SCENE, u=np.float64(0.25))
     for value in (*samples[:4], airlight.radiance(**SCENE), airlight.pdf(**SCENE, t=1)):
