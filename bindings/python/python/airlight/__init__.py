@@ -22,34 +22,31 @@ While a call runs, so do other threads of Python; they must not write to its arg
 any number of threads, and the same as those of Rust.
 """
 
-import os as _os
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+import os
+from collections.abc import Sequence
+from typing import Literal, NamedTuple
 
-import numpy as _np
+from numpy import float32, uint32
+from numpy.typing import ArrayLike, NDArray
 
 from . import _airlight
 from ._airlight import Emitter, Emitters, Media, Medium
 
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from numpy.typing import ArrayLike
-
-    Float32 = _np.ndarray[Any, _np.dtype[_np.float32]]
-    Vectors = ArrayLike | tuple[ArrayLike, ArrayLike, ArrayLike]
-    Strategy = Literal[
-        "transmittance",
-        "equi-angular",
-        "point-normal",
-        "taylor-transmittance",
-        "taylor-phase",
-        "product-3",
-        "product-5",
-        "product-9",
-        "product-17",
-    ]
-    Precision = Literal["exact", "fast"]
-    Nodes = Literal[4, 6, 8, 12]
+Floats = NDArray[float32]
+Vectors = ArrayLike | tuple[ArrayLike, ArrayLike, ArrayLike]
+Strategy = Literal[
+    "transmittance",
+    "equi-angular",
+    "point-normal",
+    "taylor-transmittance",
+    "taylor-phase",
+    "product-3",
+    "product-5",
+    "product-9",
+    "product-17",
+]
+Precision = Literal["exact", "fast"]
+Nodes = Literal[4, 6, 8, 12]
 
 __all__ = [
     "Choice",
@@ -74,8 +71,8 @@ backend: str = _airlight.backend
 """The instructions that calls use here: "avx512", "avx2" or "portable"."""
 
 # The threads of a pool are not in a forked process: there calls stay on the calling thread.
-if hasattr(_os, "register_at_fork"):
-    _os.register_at_fork(after_in_child=_airlight.forked)
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_airlight.forked)
 
 
 class Counts(NamedTuple):
@@ -94,13 +91,13 @@ class Counts(NamedTuple):
 class Samples(NamedTuple):
     """What `sample` returns: arrays of float32 of the shape of `u`, 0 where there is no sample."""
 
-    t: "Float32"
+    t: Floats
     """Distances along the rays [m]."""
-    pdf: "Float32"
+    pdf: Floats
     """Probability densities over distance [1/m]."""
-    weight: "Float32 | None"
+    weight: Floats | None
     """`mu_s T rho N / (r^2 pdf)` [1/m^2]: times the emitter's intensity, an estimate of the ray's radiance."""
-    r: "Float32 | None"
+    r: Floats | None
     """Distances from the samples to the emitters [m], exact also where `t` cannot resolve them."""
     counts: Counts
 
@@ -108,24 +105,24 @@ class Samples(NamedTuple):
 class Choice(NamedTuple):
     """What `choose` returns: arrays of the shape of `u`, 0 where nothing lights the ray."""
 
-    index: "_np.ndarray[Any, _np.dtype[_np.uint32]]"
+    index: NDArray[uint32]  # type: ignore[assignment]
     """Which emitter of the table, uint32."""
-    probability: "Float32"
+    probability: Floats
     """With which probability, float32."""
     counts: Counts
 
 
 def sample(
-    origin: "Vectors",
-    direction: "Vectors",
-    t_min: "ArrayLike",
-    t_max: "ArrayLike",
+    origin: Vectors,
+    direction: Vectors,
+    t_min: ArrayLike,
+    t_max: ArrayLike,
     emitter: Emitter | Emitters,
     medium: Medium | Media,
-    u: "ArrayLike",
+    u: ArrayLike,
     *,
-    strategy: "Strategy" = "product-5",
-    precision: "Precision" = "exact",
+    strategy: Strategy = "product-5",
+    precision: Precision = "exact",
     threads: int | None = None,
     weight: bool = True,
     r: bool = True,
@@ -147,23 +144,23 @@ def sample(
         Whether these are computed; None is returned else.
     """
     scene = (origin, direction, t_min, t_max, emitter, medium)
-    *columns, counts = _airlight.sample(scene, u, strategy, precision, threads, weight, r)
-    return Samples(*columns, Counts(*counts))
+    samples = _airlight.sample(scene, u, strategy, precision, threads, weight, r)
+    return Samples(*samples[:4], Counts(*samples[4]))
 
 
 def pdf(
-    origin: "Vectors",
-    direction: "Vectors",
-    t_min: "ArrayLike",
-    t_max: "ArrayLike",
+    origin: Vectors,
+    direction: Vectors,
+    t_min: ArrayLike,
+    t_max: ArrayLike,
     emitter: Emitter | Emitters,
     medium: Medium | Media,
-    t: "ArrayLike",
+    t: ArrayLike,
     *,
-    strategy: "Strategy" = "product-5",
-    precision: "Precision" = "exact",
+    strategy: Strategy = "product-5",
+    precision: Precision = "exact",
     threads: int | None = None,
-) -> "Float32":
+) -> Floats:
     """The density of `sample` at distances `t` [m], (n,) or (n, k), for multiple importance sampling.
 
     Returns an array of the shape of `t` [1/m]: 0 outside the sampled interval and for bad rays.
@@ -173,18 +170,18 @@ def pdf(
 
 
 def cdf(
-    origin: "Vectors",
-    direction: "Vectors",
-    t_min: "ArrayLike",
-    t_max: "ArrayLike",
+    origin: Vectors,
+    direction: Vectors,
+    t_min: ArrayLike,
+    t_max: ArrayLike,
     emitter: Emitter | Emitters,
     medium: Medium | Media,
-    t: "ArrayLike",
+    t: ArrayLike,
     *,
-    strategy: "Strategy" = "product-5",
-    precision: "Precision" = "exact",
+    strategy: Strategy = "product-5",
+    precision: Precision = "exact",
     threads: int | None = None,
-) -> "Float32":
+) -> Floats:
     """The distribution function of `sample` at distances `t` [m], (n,) or (n, k): from t back to u.
 
     Returns an array of the shape of `t`: 0 before the sampled interval, 1 beyond it, and 0 for bad rays.
@@ -194,17 +191,17 @@ def cdf(
 
 
 def evaluate(
-    origin: "Vectors",
-    direction: "Vectors",
-    t_min: "ArrayLike",
-    t_max: "ArrayLike",
+    origin: Vectors,
+    direction: Vectors,
+    t_min: ArrayLike,
+    t_max: ArrayLike,
     emitter: Emitter | Emitters,
     medium: Medium | Media,
-    t: "ArrayLike",
+    t: ArrayLike,
     *,
-    precision: "Precision" = "exact",
+    precision: Precision = "exact",
     threads: int | None = None,
-) -> "Float32":
+) -> Floats:
     """The integrand `mu_s T rho N / r^2` at distances `t` [m], (n,) or (n, k).
 
     Returns an array of the shape of `t` [1/m^3]: 0 outside [t_min, t_max] and for bad rays.
@@ -214,17 +211,17 @@ def evaluate(
 
 
 def radiance(
-    origin: "Vectors",
-    direction: "Vectors",
-    t_min: "ArrayLike",
-    t_max: "ArrayLike",
+    origin: Vectors,
+    direction: Vectors,
+    t_min: ArrayLike,
+    t_max: ArrayLike,
     emitter: Emitter | Emitters,
     medium: Medium | Media,
     *,
-    nodes: "Nodes" = 8,
-    precision: "Precision" = "exact",
+    nodes: Nodes = 8,
+    precision: Precision = "exact",
     threads: int | None = None,
-) -> "Float32":
+) -> Floats:
     """The single-scattered radiance of each ray per unit of the emitter's intensity, where nothing casts a shadow.
 
     It is the mean of the weights of `sample`, by quadrature with `nodes` evaluations for each ray.
@@ -236,17 +233,17 @@ def radiance(
 
 
 def choose(
-    origin: "Vectors",
-    direction: "Vectors",
-    t_min: "ArrayLike",
-    t_max: "ArrayLike",
-    table: "Sequence[Emitter]",
-    weights: "ArrayLike",
+    origin: Vectors,
+    direction: Vectors,
+    t_min: ArrayLike,
+    t_max: ArrayLike,
+    table: Sequence[Emitter],
+    weights: ArrayLike,
     medium: Medium | Media,
-    u: "ArrayLike",
+    u: ArrayLike,
     *,
-    nodes: "Nodes" = 4,
-    precision: "Precision" = "exact",
+    nodes: Nodes = 4,
+    precision: Precision = "exact",
     threads: int | None = None,
 ) -> Choice:
     """Choose an emitter of a table for each ray, in proportion to its weight times its `radiance`.

@@ -1,10 +1,26 @@
 from collections.abc import Sequence
-from typing import Any, final
+from typing import final
 
-from numpy import dtype, float32, ndarray, uint32
-from numpy.typing import ArrayLike
+from numpy import uint32
+from numpy.typing import ArrayLike, NDArray
 
-from . import Vectors
+from . import Floats, Vectors
+
+__all__ = [
+    "Emitter",
+    "Emitters",
+    "Media",
+    "Medium",
+    "backend",
+    "cdf",
+    "choose",
+    "evaluate",
+    "forked",
+    "pdf",
+    "radiance",
+    "sample",
+    "version",
+]
 
 version: str
 backend: str
@@ -76,17 +92,16 @@ class Media:
     def table(table: Sequence[Medium], index: ArrayLike) -> Media:
         """`table[index[i]]` for ray i; an index out of range makes its ray invalid."""
 
-type _Float32 = ndarray[Any, dtype[float32]]
 type _Scene = tuple[Vectors, Vectors, ArrayLike, ArrayLike, Emitter | Emitters, Medium | Media]
 type _Counts = tuple[int, int, int, int]
 
 def sample(
     scene: _Scene, u: ArrayLike, strategy: str, precision: str, threads: int | None, weight: bool, r: bool
-) -> tuple[_Float32, _Float32, _Float32 | None, _Float32 | None, _Counts]: ...
-def pdf(scene: _Scene, t: ArrayLike, strategy: str, precision: str, threads: int | None) -> _Float32: ...
-def cdf(scene: _Scene, t: ArrayLike, strategy: str, precision: str, threads: int | None) -> _Float32: ...
-def evaluate(scene: _Scene, t: ArrayLike, precision: str, threads: int | None) -> _Float32: ...
-def radiance(scene: _Scene, nodes: int, precision: str, threads: int | None) -> _Float32: ...
+) -> tuple[Floats, Floats, Floats | None, Floats | None, _Counts]: ...
+def pdf(scene: _Scene, t: ArrayLike, strategy: str, precision: str, threads: int | None) -> Floats: ...
+def cdf(scene: _Scene, t: ArrayLike, strategy: str, precision: str, threads: int | None) -> Floats: ...
+def evaluate(scene: _Scene, t: ArrayLike, precision: str, threads: int | None) -> Floats: ...
+def radiance(scene: _Scene, nodes: int, precision: str, threads: int | None) -> Floats: ...
 def choose(
     scene: _Scene,
     table: Sequence[Emitter],
@@ -95,5 +110,5 @@ def choose(
     nodes: int,
     precision: str,
     threads: int | None,
-) -> tuple[ndarray[Any, dtype[uint32]], _Float32, _Counts]: ...
+) -> tuple[NDArray[uint32], Floats, _Counts]: ...
 def forked() -> None: ...
