@@ -1,11 +1,12 @@
 //! What a call reads and writes.
 
-use crate::columns::{Column, Length, Number, Values, all_values, array, unlike, vector};
+use crate::columns::{Column, Length, Number, Places, Values, all_values, array, unlike, vector};
 use crate::error::refused;
-use crate::scene::{OfEmitter, OfMedium};
+use crate::scene::{OfEmitter, OfMedium, Place};
 use airlight::{Counts, Emitters, Error, Media, Rays};
 use numpy::prelude::*;
 use pyo3::prelude::*;
+use std::ops::Range;
 
 /// Origin, direction, `t_min`, `t_max`, emitter and medium, as they are passed.
 pub(crate) type Scene<'py> = [Bound<'py, PyAny>; 6];
@@ -40,33 +41,59 @@ impl<'a> Batch<'a> {
         Ok(length)
     }
 
-    /// How many rays there are with these numbers, and the shape of what is written for them.
-    pub(crate) fn shape_with(&self, py: Python<'_>, given: &Given) -> PyResult<(usize, Vec<usize>)> {
+    /// How its values lie, with such numbers for each ray if there are any.
+    pub(crate) fn layout(&self, py: Python<'_>, given: Option<&Given>) -> PyResult<Layout> {
         let mut length = self.length(py)?;
-        given.agree(py, &mut length)?;
-        Ok((length.rays(), given.per_ray.map_or_else(|| length.shape(), |per_ray| vec![length.rays(), per_ray])))
+        let mut per_ray = None;
+        if let Some(given) = given {
+            per_ray = given.per_ray;
+            length.agree(given.field, given.column.length(py).map(|values| values / per_ray.unwrap_or(1)))?;
+        }
+        let rays = length.rays();
+        let shape = per_ray.map_or_else(|| length.shape(), |per_ray| vec![rays, per_ray]);
+        Ok(Layout { rays, per_ray: per_ray.unwrap_or(1), shape })
     }
 
-    /// Makes the call with the columns of so many rays, while other threads of Python run.
+    /// Makes the call, part by part, with the rays, emitters and media of a part, what is given for them, and where their
+    /// values are in the batch; other threads of Python run meanwhile.
     pub(crate) fn run(
         &self,
         py: Python<'_>,
-        rays: usize,
-        call: impl FnOnce(&Rays<'_>, &Emitters<'_>, &Media<'_>) -> Result<Counts, Error> + Send,
+        layout: &Layout,
+        given: Option<&Given>,
+        mut call: impl FnMut(&Rays<'_>, &Emitters<'_>, &Media<'_>, &[f32], Range<usize>) -> Result<Counts, Error> + Send,
     ) -> PyResult<Counts> {
+        let (rays, per_ray) = (layout.rays, layout.per_ray);
         let columns = all_values(py, &self.rays, rays)?;
-        let [ox, oy, oz, dx, dy, dz, t_min, t_max] = columns.each_ref().map(|column| &**column);
         let emitters = self.emitter.source().spread(py, rays)?;
         let media = self.medium.source().spread(py, rays)?;
+        let given = given.map(|given| given.column.values(py, rays * per_ray)).transpose()?;
+        let are_in_place =
+            columns.iter().chain(&given).all(Values::are_in_place) && emitters.are_in_place() && media.are_in_place();
 
-        let rays = Rays::new([ox, oy, oz], [dx, dy, dz], t_min, t_max);
-        let (emitters, media) = (emitters.emitters(), media.media());
-        let counts = py.detach(|| call(&rays, &emitters, &media)).map_err(refused)?;
-        // A Ctrl-C that came meanwhile.
-        py.check_signals()?;
+        let mut places = (Places::default(), Place::default(), Place::default(), Vec::new());
+        let mut counts = Counts::default();
+        let part = if are_in_place { MOST_RAYS } else { MOST_CONVERTED };
+        for start in (0..rays.max(1)).step_by(part) {
+            let range = start..rays.min(start + part);
+            let [ox, oy, oz, dx, dy, dz, t_min, t_max] = places.0.parts(&columns, &range);
+            let rays = Rays::new([ox, oy, oz], [dx, dy, dz], t_min, t_max);
+            let (emitters, media) = (emitters.emitters(&range, &mut places.1), media.media(&range, &mut places.2));
+            let values = range.start * per_ray..range.end * per_ray;
+            let given = given.as_ref().map(|given| given.part(&values, &mut places.3)).unwrap_or_default();
+            counts = counts + py.detach(|| call(&rays, &emitters, &media, given, values)).map_err(refused)?;
+            // A Ctrl-C that came meanwhile.
+            py.check_signals()?;
+        }
         Ok(counts)
     }
 }
+
+/// The most rays of a part: not many seconds' work.
+const MOST_RAYS: usize = 1 << 22;
+
+/// The same where columns are converted or repeated, which stay in the cache this way: enough for some dozens of threads.
+const MOST_CONVERTED: usize = 1 << 17;
 
 /// Numbers for each ray, variates or distances: one, or `per_ray` of them next to each other.
 pub(crate) struct Given {
@@ -94,13 +121,12 @@ impl Given {
     pub(crate) fn one_each(field: &'static str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
         Ok(Self { field, column: Column::new(field, value)?, per_ray: None })
     }
+}
 
-    fn agree(&self, py: Python<'_>, length: &mut Length) -> PyResult<()> {
-        length.agree(self.field, self.column.length(py).map(|values| values / self.per_ray.unwrap_or(1)))
-    }
-
-    /// As many as that shape has.
-    pub(crate) fn values<'py>(&self, py: Python<'py>, shape: &[usize]) -> PyResult<Values<'py, f32>> {
-        self.column.values(py, shape.iter().product())
-    }
+/// How the values of a call lie.
+pub(crate) struct Layout {
+    rays: usize,
+    per_ray: usize,
+    /// The shape of what is written.
+    pub(crate) shape: Vec<usize>,
 }

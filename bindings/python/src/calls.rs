@@ -29,15 +29,17 @@ pub(crate) fn sample<'py>(
     let sampler = sampler(strategy, precision, threads)?;
     let batch = Batch::new(&scene)?;
     let u = Given::new("u", u)?;
-    let (rays, shape) = batch.shape_with(py, &u)?;
+    let layout = batch.layout(py, Some(&u))?;
 
     // Of what is not wanted the memory is never touched.
-    let (mut block, values) = (Output::new(py, 4, &shape)?, u.values(py, &shape)?);
-    let (u, [t, pdf, weights, distances]) = (&*values, block.slices()?);
-    let mut samples = Samples::new(t, pdf);
-    samples.weight = weight.then_some(weights);
-    samples.r = r.then_some(distances);
-    let counts = batch.run(py, rays, |rays, emitters, media| sampler.sample(rays, emitters, media, u, &mut samples))?;
+    let mut block = Output::new(py, 4, &layout.shape)?;
+    let [t, pdf, weights, distances] = block.slices()?;
+    let counts = batch.run(py, &layout, Some(&u), |rays, emitters, media, u, at| {
+        let mut samples = Samples::new(&mut t[at.clone()], &mut pdf[at.clone()]);
+        samples.weight = if weight { Some(&mut weights[at.clone()]) } else { None };
+        samples.r = if r { Some(&mut distances[at]) } else { None };
+        sampler.sample(rays, emitters, media, u, &mut samples)
+    })?;
 
     let array = |k, wanted: bool| wanted.then(|| block.array(k)).transpose();
     Ok((block.array(0)?, block.array(1)?, array(2, weight)?, array(3, r)?, tuple(counts)))
@@ -95,10 +97,12 @@ fn at_distance<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let batch = Batch::new(scene)?;
     let t = Given::new("t", t)?;
-    let (rays, shape) = batch.shape_with(py, &t)?;
-    let (mut block, values) = (Output::new(py, 1, &shape)?, t.values(py, &shape)?);
-    let (t, [out]) = (&*values, block.slices()?);
-    batch.run(py, rays, |rays, emitters, media| call(&sampler, rays, emitters, media, t, out))?;
+    let layout = batch.layout(py, Some(&t))?;
+    let mut block = Output::new(py, 1, &layout.shape)?;
+    let [out] = block.slices()?;
+    batch.run(py, &layout, Some(&t), |rays, emitters, media, t, at| {
+        call(&sampler, rays, emitters, media, t, &mut out[at])
+    })?;
     block.array(0)
 }
 
@@ -113,10 +117,12 @@ pub(crate) fn radiance<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let integral = integral(nodes, precision, threads)?;
     let batch = Batch::new(&scene)?;
-    let length = batch.length(py)?;
-    let mut block = Output::new(py, 1, &length.shape())?;
+    let layout = batch.layout(py, None)?;
+    let mut block = Output::new(py, 1, &layout.shape)?;
     let [out] = block.slices()?;
-    batch.run(py, length.rays(), |rays, emitters, media| integral.radiance(rays, emitters, media, out))?;
+    batch.run(py, &layout, None, |rays, emitters, media, _, at| {
+        integral.radiance(rays, emitters, media, &mut out[at])
+    })?;
     block.array(0)
 }
 
@@ -135,21 +141,28 @@ pub(crate) fn choose<'py>(
 ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>, CountsTuple)> {
     let integral = integral(nodes, precision, threads)?;
     let table: Vec<_> = table.iter().map(|emitter| emitter.0).collect();
-    let weights = Column::new("weights", weights)?;
-    if let Some(length) = weights.length(py).filter(|length| *length != table.len()) {
-        return Err(bad("weights", format_args!("{length} for {} emitters", table.len())));
-    }
+    let weights = weights_of(&table, weights)?;
     let batch = Batch::new(&scene)?;
     let u = Given::one_each("u", u)?;
-    let (rays, shape) = batch.shape_with(py, &u)?;
-
-    let (mut index, mut probability) = (Output::new(py, 1, &shape)?, Output::new(py, 1, &shape)?);
-    let (weights, values) = (weights.values(py, table.len())?, u.values(py, &shape)?);
-    let (weights, u) = (&*weights, &*values);
+    let layout = batch.layout(py, Some(&u))?;
+    let (mut index, mut probability) = (Output::new(py, 1, &layout.shape)?, Output::new(py, 1, &layout.shape)?);
     let ([index_out], [probability_out]) = (index.slices()?, probability.slices()?);
-    let counts = batch
-        .run(py, rays, |rays, _, media| integral.choose(rays, &table, weights, media, u, index_out, probability_out))?;
+    let counts = batch.run(py, &layout, Some(&u), |rays, _, media, u, at| {
+        let (index, probability) = (&mut index_out[at.clone()], &mut probability_out[at]);
+        integral.choose(rays, &table, &weights, media, u, index, probability)
+    })?;
     Ok((index.array(0)?, probability.array(0)?, tuple(counts)))
+}
+
+/// The weights of the emitters of a table; one number is that of all.
+fn weights_of(table: &[airlight::Emitter], weights: &Bound<'_, PyAny>) -> PyResult<Vec<f32>> {
+    let (py, column) = (weights.py(), Column::new("weights", weights)?);
+    match column.length(py) {
+        Some(length) if length != table.len() => {
+            Err(bad("weights", format_args!("{length} for {} emitters", table.len())))
+        }
+        _ => column.to_vec(py, table.len()),
+    }
 }
 
 /// The sampler of a call's options.

@@ -1,14 +1,13 @@
 //! Columns of numbers, from what Python passes: scalars, arrays, and what numpy makes arrays of.
 
-use crate::output::Output;
 use numpy::prelude::*;
-use numpy::{Element, PyArray1, PyArrayDyn, PyReadonlyArray1, PyUntypedArray};
-use pyo3::exceptions::{PyMemoryError, PyValueError};
+use numpy::{Element, PyArray1, PyArray2, PyArrayDyn, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArray};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyFloat, PyInt, PyTuple};
 use std::fmt::{self, Display};
-use std::ops::Deref;
+use std::ops::Range;
 
 /// What an array may hold: `f32`, or `u32` for an index.
 pub(crate) trait Number: Element + Copy {
@@ -69,10 +68,11 @@ pub(crate) fn array<'py, T: Number>(field: Field, value: &Bound<'py, PyAny>) -> 
     Ok(arrays.bind(py).call_method1(T::CONVERT, (field.to_string(), value))?.cast_into()?)
 }
 
-/// One value for all rays, or one for each.
+/// One value for all rays, or one for each: of an array of one dimension, or a column of one of two.
 pub(crate) enum Column<T> {
     One(T),
     Many(Py<PyArray1<T>>),
+    Component(Py<PyArray2<T>>, usize),
 }
 
 impl<T: Number> Column<T> {
@@ -95,21 +95,24 @@ impl<T: Number> Column<T> {
         match self {
             Self::One(_) => None,
             Self::Many(array) => Some(array.bind(py).len()),
+            Self::Component(array, _) => Some(array.bind(py).shape()[0]),
         }
     }
 
-    /// Its values, repeated until they are `count`.
+    /// Its values, to be repeated until they are `count`.
     pub(crate) fn values<'py>(&self, py: Python<'py>, count: usize) -> PyResult<Values<'py, T>> {
-        let array = match self {
-            Self::One(value) => return Ok(Values::Owned(repeated(&[*value], count)?)),
-            Self::Many(array) => array.bind(py).try_readonly()?,
+        let values = match self {
+            Self::One(value) => Values::One(*value),
+            Self::Many(array) if array.bind(py).len() == count => Values::Many(array.bind(py).try_readonly()?),
+            Self::Many(array) => Values::Repeated(array.bind(py).try_readonly()?),
+            Self::Component(array, k) => Values::Component(array.bind(py).try_readonly()?, *k),
         };
-        // An array that was kept may have been resized, or its flags changed.
-        match array.as_slice() {
-            Ok(values) if values.len() == count => Ok(Values::Borrowed(array)),
-            Ok(values) if !values.is_empty() => Ok(Values::Owned(repeated(values, count)?)),
-            _ => Err(PyValueError::new_err("an array has changed since it was passed")),
-        }
+        Ok(values)
+    }
+
+    /// A copy of its values, repeated until they are `count`.
+    pub(crate) fn to_vec(&self, py: Python<'_>, count: usize) -> PyResult<Vec<T>> {
+        Ok(self.values(py, count)?.part(&(0..count), &mut Vec::new()).to_vec())
     }
 }
 
@@ -123,31 +126,60 @@ pub(crate) fn all_values<'py, const K: usize>(
     Ok(values.try_into().unwrap_or_else(|_| unreachable!("as many as columns")))
 }
 
-/// `values` over and over, `count` numbers in all.
-fn repeated<T: Copy>(values: &[T], count: usize) -> PyResult<Vec<T>> {
-    let mut all = Vec::new();
-    all.try_reserve_exact(count).map_err(|error| PyMemoryError::new_err(error.to_string()))?;
-    match values {
-        [value] => all.resize(count, *value),
-        _ => all.extend(values.iter().cycle().take(count)),
-    }
-    Ok(all)
-}
-
-/// The values of a column for every ray.
+/// The values of a column for every ray, while the call borrows them.
 pub(crate) enum Values<'py, T: Element> {
-    Borrowed(PyReadonlyArray1<'py, T>),
-    Owned(Vec<T>),
+    One(T),
+    Many(PyReadonlyArray1<'py, T>),
+    Repeated(PyReadonlyArray1<'py, T>),
+    Component(PyReadonlyArray2<'py, T>, usize),
 }
 
-impl<T: Element> Deref for Values<'_, T> {
-    type Target = [T];
+impl<T: Number> Values<'_, T> {
+    /// Whether they lie as the library takes them.
+    pub(crate) fn are_in_place(&self) -> bool {
+        matches!(self, Self::Many(_))
+    }
 
-    fn deref(&self) -> &[T] {
+    /// Those of a part of the rays: where they lie, or in `place`, which is for this column alone. Fewer if the array is no
+    /// longer what was passed.
+    pub(crate) fn part<'s>(&'s self, range: &Range<usize>, place: &'s mut Vec<T>) -> &'s [T] {
         match self {
-            Self::Borrowed(array) => array.as_slice().unwrap_or_default(),
-            Self::Owned(values) => values,
+            Self::Many(array) => {
+                return array.as_slice().ok().and_then(|all| all.get(range.clone())).unwrap_or_default();
+            }
+            // Place has this value and no other.
+            Self::One(value) => place.resize(range.len(), *value),
+            Self::Repeated(array) => {
+                let all = array.as_slice().unwrap_or_default();
+                let start = range.start.checked_rem(all.len()).unwrap_or(0);
+                place.clear();
+                place.extend(all.iter().cycle().skip(start).take(range.len()));
+            }
+            Self::Component(array, k) => {
+                let rows = array.as_slice().unwrap_or_default().as_chunks::<3>().0;
+                place.clear();
+                place.extend(rows.get(range.clone()).unwrap_or_default().iter().map(|row| row[*k]));
+            }
         }
+        place
+    }
+}
+
+/// Room for a part of several columns.
+pub(crate) struct Places<const K: usize>([Vec<f32>; K]);
+
+impl<const K: usize> Default for Places<K> {
+    fn default() -> Self {
+        Self([(); K].map(|()| Vec::new()))
+    }
+}
+
+impl<const K: usize> Places<K> {
+    /// A part of the columns.
+    pub(crate) fn parts<'s>(&'s mut self, columns: &'s [Values<'_, f32>; K], range: &Range<usize>) -> [&'s [f32]; K] {
+        let mut columns = columns.iter();
+        let part = |place| columns.next().map(|column| column.part(range, place)).unwrap_or_default();
+        self.0.each_mut().map(part)
     }
 }
 
@@ -159,12 +191,16 @@ pub(crate) fn vector(field: &'static str, value: &Bound<'_, PyAny>) -> PyResult<
         let column = |k, value| Column::new(Field(field, Some(k)), value);
         return Ok([column(0, &x)?, column(1, &y)?, column(2, &z)?]);
     }
-    let array = array::<f32>(field.into(), value)?;
+    let (py, array) = (value.py(), array::<f32>(field.into(), value)?);
     let values = array.try_readonly()?;
     let rows = values.as_slice()?.as_chunks::<3>().0;
     match (array.shape(), rows) {
         ([3], [row]) => Ok(row.map(Column::One)),
-        ([n, 3], rows) => columns_of(value.py(), rows, *n),
+        ([1, 3], [row]) => Ok(row.map(|value| Column::Many(PyArray1::from_slice(py, &[value]).unbind()))),
+        ([_, 3], _) => {
+            let array: Bound<'_, PyArray2<f32>> = array.cast_into()?;
+            Ok([0, 1, 2].map(|k| Column::Component(array.clone().unbind(), k)))
+        }
         (shape, _) => Err(unlike(field.into(), shape, VECTOR)),
     }
 }
@@ -181,17 +217,6 @@ fn components<'py>(field: &str, value: &Bound<'py, PyAny>) -> PyResult<Option<[B
     }
     let [x, y, z] = [value.getattr_opt("x")?, value.getattr_opt("y")?, value.getattr_opt("z")?];
     Ok(x.zip(y).zip(z).map(|((x, y), z)| [x, y, z]))
-}
-
-/// The columns of `n` rows.
-fn columns_of(py: Python<'_>, rows: &[[f32; 3]], n: usize) -> PyResult<[Column<f32>; 3]> {
-    let mut columns = Output::new(py, 3, &[n])?;
-    let [x, y, z] = columns.slices()?;
-    for (((x, y), z), row) in x.iter_mut().zip(y).zip(z).zip(rows) {
-        [*x, *y, *z] = *row;
-    }
-    let column = |k| PyResult::Ok(Column::Many(columns.array(k)?.cast_into()?.unbind()));
-    Ok([column(0)?, column(1)?, column(2)?])
 }
 
 /// A point or a direction: a vector for all rays.

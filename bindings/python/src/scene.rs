@@ -1,11 +1,12 @@
 //! Emitters and media: one, one per ray in columns, or a table with an index per ray.
 
-use crate::columns::{Column, Length, Values, all_values, point, vector};
+use crate::columns::{Column, Length, Places, Values, all_values, point, vector};
 use crate::error::refused;
 use airlight::{Emitter as OneEmitter, Medium as OneMedium};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
+use std::ops::Range;
 
 /// Columns of an emitter, position and normal, and of a medium: `mu_a`, `mu_s` and `g`.
 const OF_EMITTER: usize = 6;
@@ -100,8 +101,8 @@ impl Medium {
                 return Err(PyValueError::new_err(format!("{field} has {length} channels, expected {EXPECTED}")));
             }
         }
-        let (mu_a, mu_s) = (of_a.values(py, count)?, of_s.values(py, count)?);
-        let medium = match (&*mu_a, &*mu_s) {
+        let (mu_a, mu_s) = (of_a.to_vec(py, count)?, of_s.to_vec(py, count)?);
+        let medium = match (&mu_a[..], &mu_s[..]) {
             (&[a], &[s]) => OneMedium::new(a, s, g),
             (&[a0, a1, a2], &[s0, s1, s2]) => OneMedium::coloured([a0, a1, a2], [s0, s1, s2], g),
             (&[a0, a1, a2, a3], &[s0, s1, s2, s3]) => OneMedium::coloured([a0, a1, a2, a3], [s0, s1, s2, s3], g),
@@ -331,22 +332,52 @@ pub(crate) enum Spread<'a, 'py, T, const K: usize> {
     Table(&'a [T], Values<'py, u32>),
 }
 
+/// Room for those of a part of the rays.
+#[derive(Default)]
+pub(crate) struct Place<const K: usize> {
+    columns: Places<K>,
+    index: Vec<u32>,
+}
+
+impl<T, const K: usize> Spread<'_, '_, T, K> {
+    /// Whether they lie as the library takes them.
+    pub(crate) fn are_in_place(&self) -> bool {
+        match self {
+            Self::One(_) => true,
+            Self::Each(columns) => columns.iter().all(Values::are_in_place),
+            Self::Table(_, index) => index.are_in_place(),
+        }
+    }
+}
+
 impl Spread<'_, '_, OneEmitter, OF_EMITTER> {
-    pub(crate) fn emitters(&self) -> airlight::Emitters<'_> {
+    /// The emitters of a part of the rays.
+    pub(crate) fn emitters<'s>(
+        &'s self,
+        range: &Range<usize>,
+        place: &'s mut Place<OF_EMITTER>,
+    ) -> airlight::Emitters<'s> {
         match self {
             Self::One(one) => airlight::Emitters::one(*one),
-            Self::Each([px, py, pz, nx, ny, nz]) => airlight::Emitters::each([px, py, pz], [nx, ny, nz]),
-            Self::Table(table, index) => airlight::Emitters::table(table, index),
+            Self::Each(columns) => {
+                let [px, py, pz, nx, ny, nz] = place.columns.parts(columns, range);
+                airlight::Emitters::each([px, py, pz], [nx, ny, nz])
+            }
+            Self::Table(table, index) => airlight::Emitters::table(table, index.part(range, &mut place.index)),
         }
     }
 }
 
 impl Spread<'_, '_, OneMedium, OF_MEDIUM> {
-    pub(crate) fn media(&self) -> airlight::Media<'_> {
+    /// The media of a part of the rays.
+    pub(crate) fn media<'s>(&'s self, range: &Range<usize>, place: &'s mut Place<OF_MEDIUM>) -> airlight::Media<'s> {
         match self {
             Self::One(one) => airlight::Media::one(*one),
-            Self::Each([mu_a, mu_s, g]) => airlight::Media::each(mu_a, mu_s, g),
-            Self::Table(table, index) => airlight::Media::table(table, index),
+            Self::Each(columns) => {
+                let [mu_a, mu_s, g] = place.columns.parts(columns, range);
+                airlight::Media::each(mu_a, mu_s, g)
+            }
+            Self::Table(table, index) => airlight::Media::table(table, index.part(range, &mut place.index)),
         }
     }
 }

@@ -87,3 +87,36 @@ def test_what_is_one_for_all_rays_is_as_repeated(columns):
 
     tables = airlight.Emitters.table([lamp, lamp], np.arange(n) % 2), airlight.Media.table([fog], np.zeros(n, np.uint32))
     assert equal(airlight.sample((1, 2, 3.5), direction, 0.5, np.inf, *tables, 0.25), samples)
+
+
+@pytest.mark.parametrize(("rays", "per_ray"), [(300_001, 1), (140_000, 3), (1, 200_001)])
+def test_large_batches_that_are_converted_part_by_part_are_as_columns_in_place(columns, rays, per_ray):
+    def long(column):
+        return np.resize(column, rays)
+
+    origin, direction = (tuple(map(long, vector)) for vector in (columns.origin, columns.direction))
+    t_max, g = long(columns.t_max), long(columns.medium[2])
+    u = np.resize(columns.u, (rays, per_ray))
+    index = np.arange(rays, dtype=np.uint32) % 2
+    lamps = [airlight.Emitter((1, 2, 3)), airlight.Emitter((-1, 2, 0), (0, 1, 0))]
+    full = np.full(rays, 0.5, np.float32)
+    in_place = airlight.Emitters.table(lamps, index), airlight.Media.each(full, full, g)
+    expected = airlight.sample(origin, direction, full, t_max, *in_place, u)
+    rows = [np.stack(vector, axis=1) for vector in (origin, direction)]
+    converted = airlight.Emitters.table(lamps, index.astype(np.int64)), airlight.Media.each(0.5, 0.5, g)
+    assert equal(airlight.sample(*rows, 0.5, t_max, *converted, u), expected)
+    pdf = airlight.pdf(*rows, 0.5, t_max, *converted, expected.t)
+    assert np.array_equal(pdf, airlight.pdf(origin, direction, full, t_max, *in_place, expected.t))
+    if rays > 1:
+        same = airlight.sample(*rows, 0.5, t_max, *converted, u[:1])
+        assert np.array_equal(same.t[-1], airlight.sample(*rows, 0.5, t_max, *converted, np.resize(u[:1], u.shape)).t[-1])
+
+
+def test_the_largest_batches_in_place_go_in_parts_too():
+    n = (1 << 22) + 5
+    zero, one, u = np.zeros(n, np.float32), np.ones(n, np.float32), np.linspace(0, 1, n, dtype=np.float32)
+    lamp, fog = airlight.Emitter((0, 1, 3)), airlight.Medium(0.1, 0.3, 0.6)
+    arguments = (zero, zero, zero), (zero, zero, one), zero, one, lamp, fog
+    samples = airlight.sample(*arguments, u, weight=False, r=False)
+    last = airlight.sample((0, 0, 0), (0, 0, 1), 0, 1, lamp, fog, u[-9:])
+    assert samples.counts.sampled == n and np.array_equal(samples.t[-9:], last.t)
