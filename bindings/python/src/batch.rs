@@ -1,6 +1,6 @@
 //! What a call reads and writes.
 
-use crate::columns::{Column, Length, Number, Places, Values, all_values, array, unlike, vector};
+use crate::columns::{Column, Length, Number, Values, array, parts, unlike, vector};
 use crate::error::refused;
 use crate::scene::{OfEmitter, OfMedium, Place};
 use airlight::{Counts, Emitters, Error, Media, Rays};
@@ -64,21 +64,23 @@ impl<'a> Batch<'a> {
         mut call: impl FnMut(&Rays<'_>, &Emitters<'_>, &Media<'_>, &[f32], Range<usize>) -> Result<Counts, Error> + Send,
     ) -> PyResult<Counts> {
         let (rays, per_ray) = (layout.rays, layout.per_ray);
-        let columns = all_values(py, &self.rays, rays)?;
+        let columns = self.rays.iter().map(|column| column.values(py, rays)).collect::<PyResult<Vec<_>>>()?;
         let emitters = self.emitter.source().spread(py, rays)?;
         let media = self.medium.source().spread(py, rays)?;
         let given = given.map(|given| given.column.values(py, rays * per_ray)).transpose()?;
         let are_in_place =
             columns.iter().chain(&given).all(Values::are_in_place) && emitters.are_in_place() && media.are_in_place();
 
-        let mut places = (Places::default(), Place::default(), Place::default(), Vec::new());
+        let mut places = (Vec::new(), Place::default(), Place::default(), Vec::new());
         let mut counts = Counts::default();
         let part = if are_in_place { MOST_RAYS } else { MOST_CONVERTED };
         for start in (0..rays.max(1)).step_by(part) {
             let range = start..rays.min(start + part);
-            let [ox, oy, oz, dx, dy, dz, t_min, t_max] = places.0.parts(&columns, &range);
+            let part = parts(&columns, &range, &mut places.0);
+            let &[ox, oy, oz, dx, dy, dz, t_min, t_max] = &part[..] else { unreachable!("as Batch::new made them") };
             let rays = Rays::new([ox, oy, oz], [dx, dy, dz], t_min, t_max);
-            let (emitters, media) = (emitters.emitters(&range, &mut places.1), media.media(&range, &mut places.2));
+            let (emitters, media) = (emitters.part(&range, &mut places.1), media.part(&range, &mut places.2));
+            let (emitters, media) = (emitters.emitters(), media.media());
             let values = range.start * per_ray..range.end * per_ray;
             let given = given.as_ref().map(|given| given.part(&values, &mut places.3)).unwrap_or_default();
             counts = counts + py.detach(|| call(&rays, &emitters, &media, given, values)).map_err(refused)?;

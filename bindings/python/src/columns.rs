@@ -116,16 +116,6 @@ impl<T: Number> Column<T> {
     }
 }
 
-/// The values of several columns.
-pub(crate) fn all_values<'py, const K: usize>(
-    py: Python<'py>,
-    columns: &[Column<f32>; K],
-    count: usize,
-) -> PyResult<[Values<'py, f32>; K]> {
-    let values = columns.iter().map(|column| column.values(py, count)).collect::<PyResult<Vec<_>>>()?;
-    Ok(values.try_into().unwrap_or_else(|_| unreachable!("as many as columns")))
-}
-
 /// The values of a column for every ray, while the call borrows them.
 pub(crate) enum Values<'py, T: Element> {
     One(T),
@@ -165,22 +155,14 @@ impl<T: Number> Values<'_, T> {
     }
 }
 
-/// Room for a part of several columns.
-pub(crate) struct Places<const K: usize>([Vec<f32>; K]);
-
-impl<const K: usize> Default for Places<K> {
-    fn default() -> Self {
-        Self([(); K].map(|()| Vec::new()))
-    }
-}
-
-impl<const K: usize> Places<K> {
-    /// A part of the columns.
-    pub(crate) fn parts<'s>(&'s mut self, columns: &'s [Values<'_, f32>; K], range: &Range<usize>) -> [&'s [f32]; K] {
-        let mut columns = columns.iter();
-        let part = |place| columns.next().map(|column| column.part(range, place)).unwrap_or_default();
-        self.0.each_mut().map(part)
-    }
+/// A part of several columns; `places` are for these columns alone.
+pub(crate) fn parts<'s>(
+    columns: &'s [Values<'_, f32>],
+    range: &Range<usize>,
+    places: &'s mut Vec<Vec<f32>>,
+) -> Vec<&'s [f32]> {
+    places.resize_with(columns.len(), Vec::new);
+    columns.iter().zip(places).map(|(column, place)| column.part(range, place)).collect()
 }
 
 const VECTOR: &str = "(3,), (n, 3) or a tuple of three columns";

@@ -1,16 +1,12 @@
 //! Emitters and media: one, one per ray in columns, or a table with an index per ray.
 
-use crate::columns::{Column, Length, Places, Values, all_values, point, vector};
+use crate::columns::{Column, Length, Values, parts, point, vector};
 use crate::error::refused;
 use airlight::{Emitter as OneEmitter, Medium as OneMedium};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use std::ops::Range;
-
-/// Columns of an emitter, position and normal, and of a medium: `mu_a`, `mu_s` and `g`.
-const OF_EMITTER: usize = 6;
-const OF_MEDIUM: usize = 3;
 
 /// A point that lights the medium.
 ///
@@ -160,7 +156,7 @@ fn plain<'py>(py: Python<'py>, values: &[f32]) -> PyResult<Bound<'py, PyAny>> {
 
 /// An emitter for each ray: `Emitters.each` from columns, `Emitters.table` from a list with an index per ray.
 #[pyclass(frozen, module = "airlight")]
-pub(crate) struct Emitters(PerRay<OneEmitter, OF_EMITTER>);
+pub(crate) struct Emitters(PerRay<OneEmitter>);
 
 #[pymethods]
 impl Emitters {
@@ -173,10 +169,11 @@ impl Emitters {
     #[staticmethod]
     #[pyo3(signature = (position, normal = None))]
     fn each(position: &Bound<'_, PyAny>, normal: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
-        let [px, py, pz] = vector("position", position)?;
+        let position = vector("position", position)?.map(|column| ("emitter.position", column));
         let none = || [(); 3].map(|()| Column::One(0.0));
-        let [nx, ny, nz] = normal.map_or_else(|| Ok(none()), |normal| vector("normal", normal))?;
-        Ok(Self(PerRay::Each([px, py, pz, nx, ny, nz])))
+        let normal = normal.map_or_else(|| Ok(none()), |normal| vector("normal", normal))?;
+        let normal = normal.map(|column| ("emitter.normal", column));
+        Ok(Self(PerRay::Each(position.into_iter().chain(normal).collect())))
     }
 
     /// `table[index[i]]` for ray i.
@@ -185,13 +182,13 @@ impl Emitters {
     /// index: (n,), integers; one out of range makes its ray invalid.
     #[staticmethod]
     fn table(table: Vec<PyRef<'_, Emitter>>, index: &Bound<'_, PyAny>) -> PyResult<Self> {
-        PerRay::table(table.iter().map(|emitter| emitter.0).collect(), index).map(Self)
+        PerRay::table(table.iter().map(|emitter| emitter.0).collect(), "emitter.index", index).map(Self)
     }
 }
 
 /// A medium for each ray: `Media.each` from columns, `Media.table` from a list with an index per ray.
 #[pyclass(frozen, module = "airlight")]
-pub(crate) struct Media(PerRay<OneMedium, OF_MEDIUM>);
+pub(crate) struct Media(PerRay<OneMedium>);
 
 #[pymethods]
 impl Media {
@@ -203,7 +200,11 @@ impl Media {
     /// Each may be one number for all rays. float32 columns are not copied.
     #[staticmethod]
     fn each(mu_a: &Bound<'_, PyAny>, mu_s: &Bound<'_, PyAny>, g: &Bound<'_, PyAny>) -> PyResult<Self> {
-        Ok(Self(PerRay::Each([Column::new("mu_a", mu_a)?, Column::new("mu_s", mu_s)?, Column::new("g", g)?])))
+        Ok(Self(PerRay::Each(vec![
+            ("medium.mu_a", Column::new("mu_a", mu_a)?),
+            ("medium.mu_s", Column::new("mu_s", mu_s)?),
+            ("medium.g", Column::new("g", g)?),
+        ])))
     }
 
     /// `table[index[i]]` for ray i.
@@ -212,41 +213,22 @@ impl Media {
     /// index: (n,), integers; one out of range makes its ray invalid.
     #[staticmethod]
     fn table(table: Vec<PyRef<'_, Medium>>, index: &Bound<'_, PyAny>) -> PyResult<Self> {
-        PerRay::table(table.iter().map(|medium| medium.0).collect(), index).map(Self)
+        PerRay::table(table.iter().map(|medium| medium.0).collect(), "medium.index", index).map(Self)
     }
 }
 
-/// A thing of `K` numbers, and what its columns are called in a call.
-pub(crate) trait Entry<const K: usize>: Copy {
-    const COLUMNS: [&'static str; K];
-    const INDEX: &'static str;
+/// A thing for each ray: its numbers in columns, or a table and an index; with what these are called in a call.
+pub(crate) enum PerRay<T> {
+    Each(Vec<(&'static str, Column<f32>)>),
+    Table { table: Vec<T>, name: &'static str, index: Column<u32> },
 }
 
-impl Entry<OF_EMITTER> for OneEmitter {
-    const COLUMNS: [&'static str; OF_EMITTER] = {
-        let (position, normal) = ("emitter.position", "emitter.normal");
-        [position, position, position, normal, normal, normal]
-    };
-    const INDEX: &'static str = "emitter.index";
-}
-
-impl Entry<OF_MEDIUM> for OneMedium {
-    const COLUMNS: [&'static str; OF_MEDIUM] = ["medium.mu_a", "medium.mu_s", "medium.g"];
-    const INDEX: &'static str = "medium.index";
-}
-
-/// A thing for each ray, in columns or in a table.
-pub(crate) enum PerRay<T, const K: usize> {
-    Each([Column<f32>; K]),
-    Table { table: Vec<T>, index: Column<u32> },
-}
-
-impl<T, const K: usize> PerRay<T, K> {
-    fn table(table: Vec<T>, index: &Bound<'_, PyAny>) -> PyResult<Self> {
+impl<T> PerRay<T> {
+    fn table(table: Vec<T>, name: &'static str, index: &Bound<'_, PyAny>) -> PyResult<Self> {
         if table.is_empty() {
             return Err(PyValueError::new_err("table is empty"));
         }
-        Ok(Self::Table { table, index: Column::new("index", index)? })
+        Ok(Self::Table { table, name, index: Column::new("index", index)? })
     }
 }
 
@@ -265,7 +247,7 @@ impl<'py> OfEmitter<'py> {
         }
     }
 
-    pub(crate) fn source(&self) -> Source<'_, OneEmitter, OF_EMITTER> {
+    pub(crate) fn source(&self) -> Source<'_, OneEmitter> {
         match self {
             Self::One(one) => Source::One(one.0),
             Self::PerRay(many) => Source::PerRay(&many.0),
@@ -288,7 +270,7 @@ impl<'py> OfMedium<'py> {
         }
     }
 
-    pub(crate) fn source(&self) -> Source<'_, OneMedium, OF_MEDIUM> {
+    pub(crate) fn source(&self) -> Source<'_, OneMedium> {
         match self {
             Self::One(one) => Source::One(one.0),
             Self::PerRay(many) => Source::PerRay(&many.0),
@@ -297,49 +279,57 @@ impl<'py> OfMedium<'py> {
 }
 
 /// Where each ray's emitter or medium comes from.
-pub(crate) enum Source<'a, T, const K: usize> {
+pub(crate) enum Source<'a, T> {
     One(T),
-    PerRay(&'a PerRay<T, K>),
+    PerRay(&'a PerRay<T>),
 }
 
-impl<'a, T: Entry<K>, const K: usize> Source<'a, T, K> {
+impl<'a, T: Copy> Source<'a, T> {
     /// Has its columns agree with the others on the length of the batch.
     pub(crate) fn agree(&self, py: Python<'_>, length: &mut Length) -> PyResult<()> {
         match self {
             Self::One(_) => Ok(()),
             Self::PerRay(PerRay::Each(columns)) => {
-                let mut columns = T::COLUMNS.into_iter().zip(columns);
-                columns.try_for_each(|(field, column)| length.agree(field, column.length(py)))
+                columns.iter().try_for_each(|(name, column)| length.agree(name, column.length(py)))
             }
-            Self::PerRay(PerRay::Table { index, .. }) => length.agree(T::INDEX, index.length(py)),
+            Self::PerRay(PerRay::Table { name, index, .. }) => length.agree(name, index.length(py)),
         }
     }
 
     /// Its values for so many rays.
-    pub(crate) fn spread<'py>(&self, py: Python<'py>, rays: usize) -> PyResult<Spread<'a, 'py, T, K>> {
+    pub(crate) fn spread<'py>(&self, py: Python<'py>, rays: usize) -> PyResult<Spread<'a, 'py, T>> {
         Ok(match *self {
             Self::One(one) => Spread::One(one),
-            Self::PerRay(PerRay::Each(columns)) => Spread::Each(all_values(py, columns, rays)?),
-            Self::PerRay(PerRay::Table { table, index }) => Spread::Table(table, index.values(py, rays)?),
+            Self::PerRay(PerRay::Each(columns)) => {
+                Spread::Each(columns.iter().map(|(_, column)| column.values(py, rays)).collect::<PyResult<_>>()?)
+            }
+            Self::PerRay(PerRay::Table { table, index, .. }) => Spread::Table(table, index.values(py, rays)?),
         })
     }
 }
 
 /// The emitters or media of so many rays.
-pub(crate) enum Spread<'a, 'py, T, const K: usize> {
+pub(crate) enum Spread<'a, 'py, T> {
     One(T),
-    Each([Values<'py, f32>; K]),
+    Each(Vec<Values<'py, f32>>),
     Table(&'a [T], Values<'py, u32>),
 }
 
-/// Room for those of a part of the rays.
+/// Those of a part of the rays.
+pub(crate) enum Part<'s, T> {
+    One(T),
+    Each(Vec<&'s [f32]>),
+    Table(&'s [T], &'s [u32]),
+}
+
+/// Room for them.
 #[derive(Default)]
-pub(crate) struct Place<const K: usize> {
-    columns: Places<K>,
+pub(crate) struct Place {
+    columns: Vec<Vec<f32>>,
     index: Vec<u32>,
 }
 
-impl<T, const K: usize> Spread<'_, '_, T, K> {
+impl<T: Copy> Spread<'_, '_, T> {
     /// Whether they lie as the library takes them.
     pub(crate) fn are_in_place(&self) -> bool {
         match self {
@@ -348,36 +338,39 @@ impl<T, const K: usize> Spread<'_, '_, T, K> {
             Self::Table(_, index) => index.are_in_place(),
         }
     }
-}
 
-impl Spread<'_, '_, OneEmitter, OF_EMITTER> {
-    /// The emitters of a part of the rays.
-    pub(crate) fn emitters<'s>(
-        &'s self,
-        range: &Range<usize>,
-        place: &'s mut Place<OF_EMITTER>,
-    ) -> airlight::Emitters<'s> {
+    /// Those of a part of the rays.
+    pub(crate) fn part<'s>(&'s self, range: &Range<usize>, place: &'s mut Place) -> Part<'s, T> {
         match self {
-            Self::One(one) => airlight::Emitters::one(*one),
-            Self::Each(columns) => {
-                let [px, py, pz, nx, ny, nz] = place.columns.parts(columns, range);
-                airlight::Emitters::each([px, py, pz], [nx, ny, nz])
-            }
-            Self::Table(table, index) => airlight::Emitters::table(table, index.part(range, &mut place.index)),
+            Self::One(one) => Part::One(*one),
+            Self::Each(columns) => Part::Each(parts(columns, range, &mut place.columns)),
+            Self::Table(table, index) => Part::Table(table, index.part(range, &mut place.index)),
         }
     }
 }
 
-impl Spread<'_, '_, OneMedium, OF_MEDIUM> {
-    /// The media of a part of the rays.
-    pub(crate) fn media<'s>(&'s self, range: &Range<usize>, place: &'s mut Place<OF_MEDIUM>) -> airlight::Media<'s> {
+impl Part<'_, OneEmitter> {
+    pub(crate) fn emitters(&self) -> airlight::Emitters<'_> {
+        match self {
+            Self::One(one) => airlight::Emitters::one(*one),
+            Self::Each(columns) => match columns[..] {
+                [px, py, pz, nx, ny, nz] => airlight::Emitters::each([px, py, pz], [nx, ny, nz]),
+                _ => unreachable!("as Emitters.each made them"),
+            },
+            Self::Table(table, index) => airlight::Emitters::table(table, index),
+        }
+    }
+}
+
+impl Part<'_, OneMedium> {
+    pub(crate) fn media(&self) -> airlight::Media<'_> {
         match self {
             Self::One(one) => airlight::Media::one(*one),
-            Self::Each(columns) => {
-                let [mu_a, mu_s, g] = place.columns.parts(columns, range);
-                airlight::Media::each(mu_a, mu_s, g)
-            }
-            Self::Table(table, index) => airlight::Media::table(table, index.part(range, &mut place.index)),
+            Self::Each(columns) => match columns[..] {
+                [mu_a, mu_s, g] => airlight::Media::each(mu_a, mu_s, g),
+                _ => unreachable!("as Media.each made them"),
+            },
+            Self::Table(table, index) => airlight::Media::table(table, index),
         }
     }
 }
