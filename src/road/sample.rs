@@ -3,7 +3,7 @@
 use super::blocks::{AHEAD, Block, Geometries, SetUps, Tally, Wanted, for_each_block, for_each_run, set_up};
 use super::{Method, OfDensity, Out, Task, by_strategy};
 use crate::Precision;
-use crate::batch::{Counts, Inputs, MediumGroups, OfRuns, OfSamples, RayGroups, Samples, Turn};
+use crate::batch::{ChannelGroups, Counts, Inputs, MediumGroups, OfRuns, OfSamples, RayGroups, Samples, Turn};
 use crate::density::{Density, Kind, SetUp};
 use crate::geometry::{Extent, Geometry, Point};
 use crate::integrand::{MediumLanes, integrand_r2};
@@ -17,7 +17,7 @@ impl Task for Sample {
 
     fn run(machine: impl Machine, method: Method, inputs: &Inputs<'_>, out: Samples<'_>) -> Counts {
         // Apart, as points are handed on for weights and `r` alone.
-        if out.weight.is_some() || out.r.is_some() {
+        if out.channels() > 0 || out.r.is_some() {
             by_strategy::<Drawing<true>>(machine, method, inputs, out)
         } else {
             by_strategy::<Drawing<false>>(machine, method, inputs, out)
@@ -111,7 +111,7 @@ impl<I: Isa> Once<'_, I> {
     #[cfg_attr(optimized, inline(always))]
     fn stations(&self, isa: I) -> Stations<'_, I> {
         let Block { inputs, groups, .. } = self.block;
-        let media = self.block.media.groups(isa);
+        let media = self.block.media.means.groups(isa);
         Stations {
             first: groups.start,
             rays: inputs.ray_groups(),
@@ -119,6 +119,7 @@ impl<I: Isa> Once<'_, I> {
             u: &I::groups(self.u)[..groups.len()],
             medium: media.media(isa, 0),
             media,
+            channels: self.block.channels(isa),
         }
     }
 }
@@ -131,6 +132,7 @@ struct Stations<'p, I: Isa> {
     u: &'p [I::Group],
     media: MediumGroups<'p, I>,
     medium: MediumLanes<I>,
+    channels: Option<ChannelGroups<'p, I>>,
 }
 
 impl<I: Isa> Stations<'_, I> {
@@ -146,7 +148,11 @@ impl<I: Isa> Stations<'_, I> {
         let (group, geometry) = (self.first + record, self.geometries.get(record));
         self.media.renew(isa, record, &mut self.medium);
         let ray = self.rays.lanes(isa, group);
-        let set_up = SetUp::<I, D::On<I>>::new(isa, &ray, geometry, &self.medium);
+        let channels = match &self.channels {
+            Some(channels) => Some(channels.lanes(isa, record)),
+            None => None,
+        };
+        let set_up = SetUp::<I, D::On<I>>::new(isa, &ray, geometry, &self.medium, channels.as_ref());
         let placed = Placed::new(isa, geometry, &set_up, &self.u[record]);
         point_one::<I, D>(isa, geometry, &set_up, &placed, t, pdf, tally)
     }
@@ -283,19 +289,21 @@ fn weigh<I: Isa>(isa: I, block: &Block<'_, I>, turns: &[Turn], points: &[Sampled
                     isa.store(I::V::only(*sampled, point.r), r);
                 }
             }
-            let Some(weight) = &mut out.weight else { return };
-            let (rays, media) = (block.inputs.ray_groups::<I>(), block.media.groups(isa));
-            let mut medium = media.media(isa, 0);
-            let geometries = block.geometries();
-            for ((turn, Sampled { point, times_r2, sampled }), weight) in
-                turns.iter().zip(points).zip(I::groups_mut(weight))
-            {
-                let group = block.groups.start + turn.record;
-                media.renew(isa, turn.record, &mut medium);
-                let (ray, geometry) = (rays.lanes(isa, group), geometries.get(turn.record));
-                let f = integrand_r2(isa, &ray, geometry, &medium, point);
-                let value = (f / *times_r2).min(isa.splat(f32::MAX));
-                isa.store(I::V::only(*sampled & isa.splat(0.0).lt(*times_r2), value), weight);
+            let (rays, geometries) = (block.inputs.ray_groups::<I>(), block.geometries());
+            let columns = out.channels();
+            for (column, weight) in out.weights.iter_mut().flatten().enumerate() {
+                let media = block.media.of_output(column, columns).groups(isa);
+                let mut medium = media.media(isa, 0);
+                for ((turn, Sampled { point, times_r2, sampled }), weight) in
+                    turns.iter().zip(points).zip(I::groups_mut(weight))
+                {
+                    let group = block.groups.start + turn.record;
+                    media.renew(isa, turn.record, &mut medium);
+                    let (ray, geometry) = (rays.lanes(isa, group), geometries.get(turn.record));
+                    let f = integrand_r2(isa, &ray, geometry, &medium, point);
+                    let value = (f / *times_r2).min(isa.splat(f32::MAX));
+                    isa.store(I::V::only(*sampled & isa.splat(0.0).lt(*times_r2), value), weight);
+                }
             }
         },
     );
