@@ -142,9 +142,9 @@ class Spot:
 
     def __init__(self, emitter, spot):
         self.emitter = emitter
-        self.position, _, self.colour = spot
-        # Emitter.spot(position, axis, cos(CUTOFF), cos(CUTOFF)) has less noise, once it has kernels.
-        self.known = airlight.Emitter(self.position)
+        self.position, axis, self.colour = spot
+        edge = np.cos(np.radians(CUTOFF))
+        self.known = airlight.Emitter.spot(self.position, axis / np.linalg.norm(axis), edge, edge)
 
     def emitters(self, _, n):
         return tuple(np.full(n, x, np.float32) for x in self.position), self.known

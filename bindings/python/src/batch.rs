@@ -41,6 +41,11 @@ impl<'a> Batch<'a> {
         Ok(length)
     }
 
+    /// How many channels its media have.
+    pub(crate) fn channels(&self) -> usize {
+        self.medium.source().channels()
+    }
+
     /// How its values lie, with such numbers for each ray if there are any.
     pub(crate) fn layout(&self, py: Python<'_>, given: Option<&Given>) -> PyResult<Layout> {
         let mut length = self.length(py)?;

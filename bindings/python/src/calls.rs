@@ -31,18 +31,23 @@ pub(crate) fn sample<'py>(
     let u = Given::new("u", u)?;
     let layout = batch.layout(py, Some(&u))?;
 
-    // Of what is not wanted the memory is never touched.
-    let mut block = Output::new(py, 4, &layout.shape)?;
-    let [t, pdf, weights, distances] = block.slices()?;
+    // t, pdf, r, and a weight for each channel; of what is not wanted the memory is never touched.
+    let channels = batch.channels();
+    let mut block = Output::new(py, 3 + channels, &layout.shape)?;
+    let [t, pdf, distances, mut weights @ ..]: [_; 7] = block.slices()?;
     let counts = batch.run(py, &layout, Some(&u), |rays, emitters, media, u, at| {
         let mut samples = Samples::new(&mut t[at.clone()], &mut pdf[at.clone()]);
-        samples.weight = if weight { Some(&mut weights[at.clone()]) } else { None };
+        if weight {
+            let written = weights.each_mut().into_iter().take(channels);
+            samples.weights.iter_mut().zip(written).for_each(|(to, column)| *to = Some(&mut column[at.clone()]));
+        }
         samples.r = if r { Some(&mut distances[at]) } else { None };
         sampler.sample(rays, emitters, media, u, &mut samples)
     })?;
 
-    let array = |k, wanted: bool| wanted.then(|| block.array(k)).transpose();
-    Ok((block.array(0)?, block.array(1)?, array(2, weight)?, array(3, r)?, tuple(counts)))
+    let weights = weight.then(|| block.channels(3, channels)).transpose()?;
+    let distances = r.then(|| block.array(2)).transpose()?;
+    Ok((block.array(0)?, block.array(1)?, weights, distances, tuple(counts)))
 }
 
 /// `airlight.pdf`.
@@ -81,7 +86,21 @@ pub(crate) fn evaluate<'py>(
     threads: Option<i64>,
 ) -> PyResult<Bound<'py, PyAny>> {
     // The integrand is the same for every strategy of a precision; this one has both.
-    at_distance(py, &scene, t, sampler("equi-angular", precision, threads)?, Sampler::evaluate)
+    let sampler = sampler("equi-angular", precision, threads)?;
+    let batch = Batch::new(&scene)?;
+    let t = Given::new("t", t)?;
+    let (layout, channels) = (batch.layout(py, Some(&t))?, batch.channels());
+    let mut block = Output::new(py, 4, &layout.shape)?;
+    let mut out: [_; 4] = block.slices()?;
+    batch.run(py, &layout, Some(&t), |rays, emitters, media, t, at| {
+        let [a, b, c, d] = out.each_mut().map(|column| &mut column[at.clone()]);
+        match channels {
+            3 => sampler.evaluate_coloured(rays, emitters, media, t, [a, b, c]),
+            4 => sampler.evaluate_coloured(rays, emitters, media, t, [a, b, c, d]),
+            _ => sampler.evaluate(rays, emitters, media, t, a),
+        }
+    })?;
+    block.channels(0, channels)
 }
 
 /// `Sampler::pdf` and its like.
@@ -117,13 +136,18 @@ pub(crate) fn radiance<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let integral = integral(nodes, precision, threads)?;
     let batch = Batch::new(&scene)?;
-    let layout = batch.layout(py, None)?;
-    let mut block = Output::new(py, 1, &layout.shape)?;
-    let [out] = block.slices()?;
+    let (layout, channels) = (batch.layout(py, None)?, batch.channels());
+    let mut block = Output::new(py, 4, &layout.shape)?;
+    let mut out: [_; 4] = block.slices()?;
     batch.run(py, &layout, None, |rays, emitters, media, _, at| {
-        integral.radiance(rays, emitters, media, &mut out[at])
+        let [a, b, c, d] = out.each_mut().map(|column| &mut column[at.clone()]);
+        match channels {
+            3 => integral.radiance_coloured(rays, emitters, media, [a, b, c]),
+            4 => integral.radiance_coloured(rays, emitters, media, [a, b, c, d]),
+            _ => integral.radiance(rays, emitters, media, a),
+        }
     })?;
-    block.array(0)
+    block.channels(0, channels)
 }
 
 /// `airlight.choose`: index, probability and counts. The emitter of the scene is any one of the table.

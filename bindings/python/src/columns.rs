@@ -99,13 +99,29 @@ impl<T: Number> Column<T> {
         }
     }
 
+    /// The same column once more.
+    pub(crate) fn clone_ref(&self, py: Python<'_>) -> Self {
+        match self {
+            Self::One(value) => Self::One(*value),
+            Self::Many(array) => Self::Many(array.clone_ref(py)),
+            Self::Component(array, k) => Self::Component(array.clone_ref(py), *k),
+        }
+    }
+
     /// Its values, to be repeated until they are `count`.
     pub(crate) fn values<'py>(&self, py: Python<'py>, count: usize) -> PyResult<Values<'py, T>> {
         let values = match self {
             Self::One(value) => Values::One(*value),
             Self::Many(array) if array.bind(py).len() == count => Values::Many(array.bind(py).try_readonly()?),
             Self::Many(array) => Values::Repeated(array.bind(py).try_readonly()?),
-            Self::Component(array, k) => Values::Component(array.bind(py).try_readonly()?, *k),
+            Self::Component(array, k) => {
+                let array = array.bind(py).try_readonly()?;
+                // One row is that of all rays.
+                match (array.shape()[0], array.as_slice()?.get(*k)) {
+                    (1, Some(value)) => Values::One(*value),
+                    _ => Values::Component(array, *k),
+                }
+            }
         };
         Ok(values)
     }
@@ -146,9 +162,10 @@ impl<T: Number> Values<'_, T> {
                 place.extend(all.iter().cycle().skip(start).take(range.len()));
             }
             Self::Component(array, k) => {
-                let rows = array.as_slice().unwrap_or_default().as_chunks::<3>().0;
+                let (all, width) = (array.as_slice().unwrap_or_default(), array.shape()[1]);
+                let rows = all.get(range.start * width..range.end * width).unwrap_or_default();
                 place.clear();
-                place.extend(rows.get(range.clone()).unwrap_or_default().iter().map(|row| row[*k]));
+                place.extend(rows.iter().skip(*k).step_by(width));
             }
         }
         place
@@ -173,17 +190,17 @@ pub(crate) fn vector(field: &'static str, value: &Bound<'_, PyAny>) -> PyResult<
         let column = |k, value| Column::new(Field(field, Some(k)), value);
         return Ok([column(0, &x)?, column(1, &y)?, column(2, &z)?]);
     }
-    let (py, array) = (value.py(), array::<f32>(field.into(), value)?);
-    let values = array.try_readonly()?;
-    let rows = values.as_slice()?.as_chunks::<3>().0;
-    match (array.shape(), rows) {
-        ([3], [row]) => Ok(row.map(Column::One)),
-        ([1, 3], [row]) => Ok(row.map(|value| Column::Many(PyArray1::from_slice(py, &[value]).unbind()))),
-        ([_, 3], _) => {
-            let array: Bound<'_, PyArray2<f32>> = array.cast_into()?;
-            Ok([0, 1, 2].map(|k| Column::Component(array.clone().unbind(), k)))
+    let array = array::<f32>(field.into(), value)?;
+    match *array.shape() {
+        [3] => {
+            let [x, y, z] = array.extract()?;
+            Ok([Column::One(x), Column::One(y), Column::One(z)])
         }
-        (shape, _) => Err(unlike(field.into(), shape, VECTOR)),
+        [_, 3] => {
+            let array: Py<PyArray2<f32>> = array.cast_into()?.unbind();
+            Ok([0, 1, 2].map(|k| Column::Component(array.clone_ref(value.py()), k)))
+        }
+        ref shape => Err(unlike(field.into(), shape, VECTOR)),
     }
 }
 
@@ -199,6 +216,25 @@ fn components<'py>(field: &str, value: &Bound<'py, PyAny>) -> PyResult<Option<[B
     }
     let [x, y, z] = [value.getattr_opt("x")?, value.getattr_opt("y")?, value.getattr_opt("z")?];
     Ok(x.zip(y).zip(z).map(|((x, y), z)| [x, y, z]))
+}
+
+/// A column for each channel: a tuple of them, an array of shape (n, channels), or one column for all channels.
+pub(crate) fn channels(field: &'static str, value: &Bound<'_, PyAny>) -> PyResult<Vec<Column<f32>>> {
+    if let Ok(columns) = value.cast::<PyTuple>() {
+        let column = |(c, value)| Column::new(Field(field, Some(c)), &value);
+        return columns.iter().enumerate().map(column).collect();
+    }
+    if f32::plain(value).is_some() {
+        return Ok(vec![Column::new(field, value)?]);
+    }
+    let array = array::<f32>(field.into(), value)?;
+    match *array.shape() {
+        [_, channels] => {
+            let array: Py<PyArray2<f32>> = array.cast_into()?.unbind();
+            Ok((0..channels).map(|k| Column::Component(array.clone_ref(value.py()), k)).collect())
+        }
+        _ => Ok(vec![Column::new(field, &array)?]),
+    }
 }
 
 /// A point or a direction: a vector for all rays.

@@ -8,9 +8,8 @@ use std::fmt::Display;
 /// The `ValueError` of a call that the library refuses. Lengths are never its reason: the columns that it gets agree.
 pub(crate) fn refused(error: Error) -> PyErr {
     let argument = match error {
-        Error::Unavailable { strategy: Some(_), .. } => "precision: ",
-        Error::Unavailable { field: "spots", .. } => "emitter: ",
-        Error::Unavailable { field: "coloured media", .. } => "medium: ",
+        Error::Unavailable { .. } => "precision: ",
+        Error::Channels { .. } => "medium: ",
         _ => "",
     };
     PyValueError::new_err(format!("{argument}{error}"))

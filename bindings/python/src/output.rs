@@ -4,7 +4,7 @@ use numpy::prelude::*;
 use numpy::{Element, PyArrayDyn, PyReadwriteArrayDyn};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
-use pyo3::types::PyTuple;
+use pyo3::types::{PySlice, PyTuple};
 use std::array::from_fn;
 
 /// Some arrays of one shape, in one block of memory: of several blocks, which allocators give back to the system when they
@@ -26,6 +26,17 @@ impl<'py, T: Element> Output<'py, T> {
         let length: usize = self.0.shape().iter().skip(1).product();
         let mut slices = self.0.as_slice_mut()?.chunks_exact_mut(length.max(1));
         Ok(from_fn(|_| slices.next().unwrap_or_default()))
+    }
+
+    /// So many arrays as one, with an axis more, the last; without that one if they are one.
+    pub(crate) fn channels(&self, first: usize, count: usize) -> PyResult<Bound<'py, PyAny>> {
+        if count == 1 {
+            return self.array(first);
+        }
+        let py = self.0.py();
+        let arrays = self.0.get_item(PySlice::new(py, first as isize, (first + count) as isize, 1))?;
+        let axes = (1..self.0.ndim()).chain([0]);
+        arrays.call_method1("transpose", PyTuple::new(py, axes.collect::<Vec<_>>())?)
     }
 
     /// Array number `index`; a scalar if the shape is ().

@@ -1,6 +1,6 @@
 //! Emitters and media: one, one per ray in columns, or a table with an index per ray.
 
-use crate::columns::{Column, Length, Values, parts, point, vector};
+use crate::columns::{Column, Length, Values, channels, parts, point, vector};
 use crate::error::refused;
 use airlight::{Emitter as OneEmitter, Medium as OneMedium};
 use pyo3::exceptions::{PyTypeError, PyValueError};
@@ -87,16 +87,9 @@ pub(crate) struct Medium(OneMedium);
 impl Medium {
     #[new]
     fn new(mu_a: &Bound<'_, PyAny>, mu_s: &Bound<'_, PyAny>, g: f32) -> PyResult<Self> {
-        const EXPECTED: &str = "1, 3 or 4, and mu_a and mu_s as many";
         let py = mu_a.py();
         let (of_a, of_s) = (Column::new("mu_a", mu_a)?, Column::new("mu_s", mu_s)?);
-        let count = of_a.length(py).max(of_s.length(py)).unwrap_or(1);
-        for (field, column) in [("mu_a", &of_a), ("mu_s", &of_s)] {
-            let length = column.length(py).unwrap_or(1);
-            if length != 1 && (length != count || !matches!(count, 3 | 4)) {
-                return Err(PyValueError::new_err(format!("{field} has {length} channels, expected {EXPECTED}")));
-            }
-        }
+        let count = check_channels(of_a.length(py).unwrap_or(1), of_s.length(py).unwrap_or(1))?;
         let (mu_a, mu_s) = (of_a.to_vec(py, count)?, of_s.to_vec(py, count)?);
         let medium = match (&mu_a[..], &mu_s[..]) {
             (&[a], &[s]) => OneMedium::new(a, s, g),
@@ -146,6 +139,18 @@ impl Medium {
     }
 }
 
+/// How many channels there are with so many of `mu_a` and of `mu_s`, of which one stands for all.
+fn check_channels(of_a: usize, of_s: usize) -> PyResult<usize> {
+    let count = if of_a == 1 { of_s } else { of_a };
+    for (field, length) in [("mu_a", of_a), ("mu_s", of_s)] {
+        if length != 1 && (length != count || !matches!(count, 3 | 4)) {
+            let error = format!("{field} has {length} channels, expected 1, 3 or 4, and mu_a and mu_s as many");
+            return Err(PyValueError::new_err(error));
+        }
+    }
+    Ok(count)
+}
+
 /// A number, or a tuple of several.
 fn plain<'py>(py: Python<'py>, values: &[f32]) -> PyResult<Bound<'py, PyAny>> {
     match *values {
@@ -176,6 +181,24 @@ impl Emitters {
         Ok(Self(PerRay::Each(position.into_iter().chain(normal).collect())))
     }
 
+    /// One for each ray, spots among them.
+    ///
+    /// position, axis: (n, 3) or a tuple of three columns, as those of Emitter.spot.
+    /// cos_outer, cos_inner: (n,), or one number; both -1 where the emitter is no spot, and its axis a normal.
+    #[staticmethod]
+    fn each_spot(
+        position: &Bound<'_, PyAny>,
+        axis: &Bound<'_, PyAny>,
+        cos_outer: &Bound<'_, PyAny>,
+        cos_inner: &Bound<'_, PyAny>,
+    ) -> PyResult<Self> {
+        let position = vector("position", position)?.map(|column| ("emitter.position", column));
+        let axis = vector("axis", axis)?.map(|column| ("emitter.axis", column));
+        let outer = ("emitter.cos_outer", Column::new("cos_outer", cos_outer)?);
+        let inner = ("emitter.cos_inner", Column::new("cos_inner", cos_inner)?);
+        Ok(Self(PerRay::Each(position.into_iter().chain(axis).chain([outer, inner]).collect())))
+    }
+
     /// `table[index[i]]` for ray i.
     ///
     /// table: a list of Emitter.
@@ -194,17 +217,20 @@ pub(crate) struct Media(PerRay<OneMedium>);
 impl Media {
     /// One for each ray.
     ///
-    /// mu_a, mu_s: (n,), absorption and scattering coefficients [1/m].
+    /// mu_a, mu_s: (n,), absorption and scattering coefficients [1/m]; or (n, c), or a tuple of c columns, of as many
+    ///     channels, 3 or 4.
     /// g: (n,), mean cosines.
     ///
     /// Each may be one number for all rays. float32 columns are not copied.
     #[staticmethod]
     fn each(mu_a: &Bound<'_, PyAny>, mu_s: &Bound<'_, PyAny>, g: &Bound<'_, PyAny>) -> PyResult<Self> {
-        Ok(Self(PerRay::Each(vec![
-            ("medium.mu_a", Column::new("mu_a", mu_a)?),
-            ("medium.mu_s", Column::new("mu_s", mu_s)?),
-            ("medium.g", Column::new("g", g)?),
-        ])))
+        let py = g.py();
+        let (of_a, of_s) = (channels("mu_a", mu_a)?, channels("mu_s", mu_s)?);
+        let count = check_channels(of_a.len(), of_s.len())?;
+        let of_a = (0..count).map(|c| ("medium.mu_a", of_a[c.min(of_a.len() - 1)].clone_ref(py)));
+        let of_s = (0..count).map(|c| ("medium.mu_s", of_s[c.min(of_s.len() - 1)].clone_ref(py)));
+        let g = ("medium.g", Column::new("g", g)?);
+        Ok(Self(PerRay::Each(of_a.chain(of_s).chain([g]).collect())))
     }
 
     /// `table[index[i]]` for ray i.
@@ -284,6 +310,17 @@ pub(crate) enum Source<'a, T> {
     PerRay(&'a PerRay<T>),
 }
 
+impl Source<'_, OneMedium> {
+    /// How many channels they have.
+    pub(crate) fn channels(&self) -> usize {
+        match self {
+            Self::One(one) => one.channels(),
+            Self::PerRay(PerRay::Each(columns)) => (columns.len() - 1) / 2,
+            Self::PerRay(PerRay::Table { table, .. }) => table.iter().map(OneMedium::channels).max().unwrap_or(1),
+        }
+    }
+}
+
 impl<'a, T: Copy> Source<'a, T> {
     /// Has its columns agree with the others on the length of the batch.
     pub(crate) fn agree(&self, py: Python<'_>, length: &mut Length) -> PyResult<()> {
@@ -355,7 +392,10 @@ impl Part<'_, OneEmitter> {
             Self::One(one) => airlight::Emitters::one(*one),
             Self::Each(columns) => match columns[..] {
                 [px, py, pz, nx, ny, nz] => airlight::Emitters::each([px, py, pz], [nx, ny, nz]),
-                _ => unreachable!("as Emitters.each made them"),
+                [px, py, pz, ax, ay, az, outer, inner] => {
+                    airlight::Emitters::each_spot([px, py, pz], [ax, ay, az], outer, inner)
+                }
+                _ => unreachable!("as Emitters.each and each_spot made them"),
             },
             Self::Table(table, index) => airlight::Emitters::table(table, index),
         }
@@ -368,6 +408,10 @@ impl Part<'_, OneMedium> {
             Self::One(one) => airlight::Media::one(*one),
             Self::Each(columns) => match columns[..] {
                 [mu_a, mu_s, g] => airlight::Media::each(mu_a, mu_s, g),
+                [a0, a1, a2, s0, s1, s2, g] => airlight::Media::each_coloured([a0, a1, a2], [s0, s1, s2], g),
+                [a0, a1, a2, a3, s0, s1, s2, s3, g] => {
+                    airlight::Media::each_coloured([a0, a1, a2, a3], [s0, s1, s2, s3], g)
+                }
                 _ => unreachable!("as Media.each made them"),
             },
             Self::Table(table, index) => airlight::Media::table(table, index),

@@ -189,6 +189,8 @@ BAD_OBJECTS = {
     "mu_s has 3 channels": lambda: airlight.Medium([0, 1, 2, 3], [1, 1, 1], 0),
     "mu_a has 0 channels": lambda: airlight.Medium([], [], 0),
     "g": lambda: airlight.Medium(0, 1, 1.5),
+    "mu_a has 2 channels ": lambda: airlight.Media.each((0.1, 0.2), 1, 0),
+    "mu_s has 4 channels": lambda: airlight.Media.each((0.1, 0.2, 0.3), np.ones((5, 4)), 0),
     "table is empty": lambda: airlight.Emitters.table([], [0]),
     "index has dtype float64": lambda: airlight.Media.table([FOG], [0.5]),
     "table is empty ": lambda: airlight.choose((0, 0, 0), (0, 0, 1), 0, 4, [], [], FOG, 0.5),
@@ -216,9 +218,7 @@ def test_memory_that_there_is_not():
         airlight.sample(**SCENE | {"t_max": np.ones(1 << 20)}, u=np.full((1, 1 << 22), 0.5))
 
 
-def test_what_has_no_kernel_is_named():
-    spot = airlight.Emitter.spot((0, 1, 3), (0, -1, 0), 0.5, 0.75)
-    colour = airlight.Medium(0.1, (0.1, 0.2, 0.3), 0.6)
-    for name, value in {"emitter": spot, "medium": colour}.items():
-        with pytest.raises(ValueError, match=f"^{name}: there are no kernels"):
-            airlight.sample(**SCENE | {"u": 0.5, name: value})
+def test_media_of_a_table_have_as_many_channels():
+    media = airlight.Media.table([FOG, airlight.Medium(0.1, (0.1, 0.2, 0.3), 0.6)], [0, 1])
+    with pytest.raises(ValueError, match=r"^medium: .*\[\d\] has \d channel"):
+        airlight.sample(**SCENE | {"medium": media}, u=0.5)

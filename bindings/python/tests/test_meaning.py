@@ -63,3 +63,44 @@ def test_objects_tell_what_they_are():
 def test_version_is_that_of_the_library():
     manifest = (pathlib.Path(__file__).parents[3] / "Cargo.toml").read_text()
     assert f'\nversion = "{airlight.__version__}"\n' in manifest
+
+
+@pytest.mark.parametrize("channels", [3, 4])
+def test_coloured_media_have_a_weight_for_each_channel(channels):
+    mu_a, mu_s = np.linspace(0.1, 0.4, channels), np.linspace(0.3, 0.0, channels)
+    colour = airlight.Medium(mu_a, mu_s, 0.6)
+    scene = *SCENE[:5], colour
+    u = (np.arange(3000).reshape(3, 1000) + 0.5) / 3000
+    samples, radiance = airlight.sample(*scene, u), airlight.radiance(*scene)
+    assert samples.weight.shape == (3, 1000, channels) and radiance.shape == (channels,)
+    assert samples.weight.mean(axis=(0, 1)) == pytest.approx(radiance, rel=1e-3)
+    integrands = airlight.evaluate(*scene, samples.t)
+    assert samples.weight * samples.pdf[..., None] == pytest.approx(integrands, rel=1e-5)
+    for c in range(channels):
+        grey = *SCENE[:5], airlight.Medium(mu_a[c], mu_s[c], 0.6)
+        assert radiance[c] == pytest.approx(airlight.radiance(*grey), rel=1e-4)
+        assert integrands[..., c] == pytest.approx(airlight.evaluate(*grey, samples.t), rel=1e-5)
+
+    none = airlight.sample(*scene, u, weight=False)
+    assert none.weight is None and np.array_equal(none.r, samples.r)
+    each = [
+        airlight.Media.each(tuple(mu_a), tuple(mu_s), 0.6),
+        airlight.Media.each(np.tile(mu_a, (3, 1)), mu_s[None], np.full(3, 0.6)),
+        airlight.Media.table([colour], [0, 0, 0]),
+    ]
+    for media in each:
+        assert np.array_equal(airlight.sample(*SCENE[:5], media, u).weight, samples.weight)
+    assert airlight.sample(*scene, 0.5).weight.shape == (channels,)
+
+
+def test_spots_light_their_cone():
+    spots = [airlight.Emitter.spot((0, 1, 3), (0, -1, 0), 0.5, 0.75), airlight.Emitter((1, 2, 3), (0, -1, 0))]
+    cosines = [0.5, -1], [0.75, -1]
+    table = airlight.Emitters.table(spots, [0, 1])
+    each = airlight.Emitters.each_spot([[0, 1, 3], [1, 2, 3]], (0, -1, 0), *cosines)
+    u = np.random.default_rng(3).random((2, 1000))
+    samples = airlight.sample(*SCENE[:4], table, FOG, u)
+    assert np.array_equal(samples.weight, airlight.sample(*SCENE[:4], each, FOG, u).weight)
+    assert samples.weight.mean(axis=1) == pytest.approx(airlight.radiance(*SCENE[:4], table, FOG), rel=1e-2)
+    inside = samples.t[0] > 3 - np.sqrt(3)
+    assert inside.all()

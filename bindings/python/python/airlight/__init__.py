@@ -12,6 +12,9 @@ emitter
 medium
     A Medium, or one for each ray: Media.
 
+In coloured media, whose mu_a and mu_s are of 3 or 4 channels, weights, integrands and radiances have an axis more, the
+last, with one value for each channel.
+
 Columns of float32 that are contiguous are used where they lie; other dtypes, float64 among them, other strides and
 arrays of shape (n, 3) are converted. Arrays of other libraries come by DLPack or as numpy takes them. Results are float32.
 
@@ -34,6 +37,7 @@ from ._airlight import Emitter, Emitters, Media, Medium
 
 Floats = NDArray[float32]
 Vectors = ArrayLike | tuple[ArrayLike, ArrayLike, ArrayLike]
+Channels = ArrayLike | tuple[ArrayLike, ...]
 Strategy = Literal[
     "transmittance",
     "equi-angular",
@@ -89,7 +93,10 @@ class Counts(NamedTuple):
 
 
 class Samples(NamedTuple):
-    """What `sample` returns: arrays of float32 of the shape of `u`, 0 where there is no sample."""
+    """What `sample` returns: arrays of float32 of the shape of `u`, 0 where there is no sample.
+
+    The weights of coloured media have one axis more, of the channels.
+    """
 
     t: Floats
     """Distances along the rays [m]."""

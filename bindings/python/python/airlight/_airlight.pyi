@@ -4,7 +4,7 @@ from typing import final
 from numpy import uint32
 from numpy.typing import ArrayLike, NDArray
 
-from . import Floats, Vectors
+from . import Channels, Floats, Vectors
 
 __all__ = [
     "Emitter",
@@ -59,6 +59,10 @@ class Emitters:
         """From columns: (n, 3) or a tuple of three; the normal (0, 0, 0) stands for none."""
 
     @staticmethod
+    def each_spot(position: Vectors, axis: Vectors, cos_outer: ArrayLike, cos_inner: ArrayLike) -> Emitters:
+        """Spots among them: both cosines are -1 where the emitter is no spot, and its axis a normal."""
+
+    @staticmethod
     def table(table: Sequence[Emitter], index: ArrayLike) -> Emitters:
         """`table[index[i]]` for ray i; an index out of range makes its ray invalid."""
 
@@ -85,8 +89,8 @@ class Media:
     """A medium for each ray."""
 
     @staticmethod
-    def each(mu_a: ArrayLike, mu_s: ArrayLike, g: ArrayLike) -> Media:
-        """From columns: (n,) each, or one number."""
+    def each(mu_a: Channels, mu_s: Channels, g: ArrayLike) -> Media:
+        """From columns: (n,) each, or one number; mu_a and mu_s of coloured media (n, c) or a tuple of c columns."""
 
     @staticmethod
     def table(table: Sequence[Medium], index: ArrayLike) -> Media:
