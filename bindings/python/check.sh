@@ -15,6 +15,8 @@ cargo fmt --check
 cargo clippy --locked --release --all-targets -- -D warnings
 python3 -m venv "$target/python"
 "$target/python/bin/pip" install --quiet --disable-pip-version-check '.[test]'
-"$target/python/bin/python" -m mypy --strict -p airlight
+"$target/python/bin/ruff" format --check --quiet
+"$target/python/bin/ruff" check --quiet
+"$target/python/bin/python" -m mypy --strict python/airlight
 "$target/python/bin/python" -m mypy.stubtest airlight._airlight
 "$target/python/bin/pytest" --quiet

@@ -242,8 +242,8 @@ def main():
         error = (pictures.mean - reference) ** 2
         rmse[name] = np.sqrt(error.mean()) / reference.mean()
         relative[name] = np.sqrt(np.mean(error[bright] / reference[bright] ** 2))
-        rays = f"{SPP * len(pictures.tiles):6} rays/pixel"
-        print(f"{name:8} {pictures.seconds:5.1f} s {rays}  RMSE {rmse[name]:.4f} of the mean, {relative[name]:.4f} relative")
+        effort = f"{pictures.seconds:5.1f} s {SPP * len(pictures.tiles):6} rays/pixel"
+        print(f"{name:8} {effort}  RMSE {rmse[name]:.4f} of the mean, {relative[name]:.4f} relative")
         mi.util.write_bitmap(f"{arguments.out}-{name}.png", pictures.mean.astype(np.float32))
     ratios = [(errors["volpath"] / errors["airlight"]) ** 2 for errors in (rmse, relative)]
     print(f"equal time: volpath has {ratios[0]:.1f} times the squared error, {ratios[1]:.1f} times the relative one")
@@ -252,8 +252,9 @@ def main():
     (a, var_a), (b, var_b) = (references[name].mean_and_variance_of_tiles() for name in renderers)
     known = (var_a < (0.05 * a) ** 2) & (var_b < (0.05 * b) ** 2)
     z = (a - b)[known] / np.sqrt((var_a + var_b)[known])
-    print(f"references, {z.size} of {known.size} tiles known to 5 %: max |z| {abs(z).max():.2f}, rms {np.sqrt(np.mean(z**2)):.2f}")
-    assert abs(z).max() < 4, "the two do not agree"
+    largest, rms = abs(z).max(), np.sqrt(np.mean(z**2))
+    print(f"references, {z.size} of {known.size} tiles known to 5 %: max |z| {largest:.2f}, rms {rms:.2f}")
+    assert largest < 4, "the two do not agree"
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@ import argparse
 import pathlib
 import subprocess
 import time
+from functools import partial
 
 import airlight
 import numpy as np
@@ -53,15 +54,15 @@ def main():
         least = {}
         for _ in range(4):
             times = dict(zip(["Rust, in old columns", "Rust, in new columns"], rust(threads), strict=True))
-            times |= {name: best(rounds, lambda call=call: call(threads)) for name, call in cases.items()}
+            times |= {name: best(rounds, partial(call, threads)) for name, call in cases.items()}
             least = {name: min(least.get(name, np.inf), value) for name, value in times.items()}
         for name, value in least.items():
             print(f"threads={threads}  {name:24} {1e3 * value:7.2f}  {value / least['Rust, in old columns']:.3f}")
 
-    ray = (0.0, 0.0, 0.0), (0.0, 0.0, 1.0), 0.0, 4.0, lamp, fog, 0.25
-    one = np.zeros((1, 3), np.float32), np.array([[0, 0, 1]], np.float32), 0.0, 4.0, lamp, fog, np.full(1, 0.25, np.float32)
-    for name, call in {"numbers": ray, "arrays": one}.items():
-        print(f"one ray, {name}: {1e6 * best(rounds, lambda call=call: airlight.sample(*call), 10000):.2f} us")
+    numbers = (0.0, 0.0, 0.0), (0.0, 0.0, 1.0), 0.0, 4.0, lamp, fog, 0.25
+    zero, direction, u = np.zeros((1, 3), np.float32), np.float32([[0, 0, 1]]), np.float32([0.25])
+    for name, ray in {"numbers": numbers, "arrays": (zero, direction, 0.0, 4.0, lamp, fog, u)}.items():
+        print(f"one ray, {name}: {1e6 * best(rounds, partial(airlight.sample, *ray), 10000):.2f} us")
 
 
 if __name__ == "__main__":

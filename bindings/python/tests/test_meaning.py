@@ -57,7 +57,7 @@ def test_objects_tell_what_they_are():
     assert (FOG.channels, airlight.Medium([0.5], 0.25, 0).mu_a) == (1, 0.5)
     for thing in (spot, LAMP, airlight.Emitter((1, 2, 3)), colour, FOG):
         assert eval(f"airlight.{thing!r}") == thing
-    assert LAMP != spot
+    assert spot != LAMP
 
 
 def test_version_is_that_of_the_library():

@@ -76,7 +76,8 @@ def test_a_forked_process_can_call():
     program = """
 import airlight, numpy, os
 u = numpy.linspace(0, 1, 1 << 16, dtype=numpy.float32)
-call = lambda: airlight.sample((0, 0, 0), (0, 0, 1), 0, 4, airlight.Emitter((0, 1, 3)), airlight.Medium(0.01, 0.1, 0.6), u)
+lamp, fog = airlight.Emitter((0, 1, 3)), airlight.Medium(0.01, 0.1, 0.6)
+call = lambda: airlight.sample((0, 0, 0), (0, 0, 1), 0, 4, lamp, fog, u)
 before = call()
 child = os.fork()
 same = numpy.array_equal(call().t, before.t)

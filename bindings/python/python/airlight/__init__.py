@@ -3,8 +3,8 @@
 Lengths are in metres, coefficients per metre. Every function takes rays, an emitter and a medium:
 
 origin, direction
-    Where the rays start and where they go, of unit length: an array of shape (n, 3), or a tuple of three columns x, y, z;
-    of shape (3,), or a tuple of three numbers, for all rays.
+    Where the rays start and where they go, of unit length: an array of shape (n, 3), or three columns x, y, z in a tuple or
+    as attributes of these names; of shape (3,), or a tuple of three numbers, for all rays.
 t_min, t_max
     (n,), the part of the ray that lies in the medium, from 0 on; t_max may be inf. One number is that of all rays.
 emitter
@@ -15,14 +15,14 @@ medium
 In coloured media, whose mu_a and mu_s are of 3 or 4 channels, weights, integrands and radiances have an axis more, the
 last, with one value for each channel.
 
-Columns of float32 that are contiguous are used where they lie; other dtypes, float64 among them, other strides and
-arrays of shape (n, 3) are converted. Arrays of other libraries come by DLPack or as numpy takes them. Results are float32.
+Contiguous arrays of float32 are read where they lie, columns of them fastest; other dtypes, float64 among them, and other
+strides are converted. Arrays of other libraries come by DLPack, or as numpy takes them. Results are float32.
 
-A malformed call raises ValueError, or TypeError for an object of another kind, and names the argument. A bad ray (a NaN, a
-direction that is none) is no error: its results are 0, and it is counted.
+A malformed call raises ValueError, or TypeError for an object of another kind, and names the argument. A bad ray (a NaN,
+a direction that is none) is no error: its results are 0, and it is counted.
 
-While a call runs, so do other threads of Python; they must not write to its arguments. Results are the same to the bit for
-any number of threads, and the same as those of Rust.
+While a call runs, so do other threads of Python; they must not write to its arguments. Results are the same to the bit
+for any number of threads, and the same as those of Rust.
 """
 
 import os
@@ -139,8 +139,8 @@ def sample(
     Rays, emitter and medium are described in `help(airlight)`.
 
     u
-        (n,) or (n, k), uniform variates in [0, 1]. The k variates of a ray share the set-up of its density. The inverse is
-        monotone: stratified and low-discrepancy variates keep their evenness.
+        (n,) or (n, k), uniform variates in [0, 1]. The k variates of a ray share the set-up of its density. The inverse
+        is monotone: stratified and low-discrepancy variates keep their evenness.
     strategy
         The density; "product-5" follows nearly the whole integrand, those with more points have less variance.
     precision

@@ -96,8 +96,8 @@ class Media:
     def table(table: Sequence[Medium], index: ArrayLike) -> Media:
         """`table[index[i]]` for ray i; an index out of range makes its ray invalid."""
 
-type _Scene = tuple[Vectors, Vectors, ArrayLike, ArrayLike, Emitter | Emitters, Medium | Media]
-type _Counts = tuple[int, int, int, int]
+_Scene = tuple[Vectors, Vectors, ArrayLike, ArrayLike, Emitter | Emitters, Medium | Media]
+_Counts = tuple[int, int, int, int]
 
 def sample(
     scene: _Scene, u: ArrayLike, strategy: str, precision: str, threads: int | None, weight: bool, r: bool

@@ -1,4 +1,4 @@
-"""Arrays out of whatever has numbers: sequences, scalars, and the arrays of other libraries, by DLPack where they have it."""
+"""Arrays out of whatever has numbers: sequences, scalars, and arrays of other libraries, by DLPack where they have it."""
 
 from typing import Any
 
