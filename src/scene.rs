@@ -178,9 +178,9 @@ impl Medium {
     /// A medium of 1, 3 or 4 channels, with `mu_a` and `mu_s` \[1/m\] of each and one mean cosine `g` \[1\]. Of one channel
     /// it is that of [`new`](Self::new).
     ///
-    /// All channels share the distances of the samples: a product density is then the mean of those that the channels have, at the
-    /// knots of the mean medium, so that none of them has a variance that another one's density makes; the other densities are
-    /// those of the mean. Weights, integrands and radiances are per channel.
+    /// All channels share the distances of the samples. The densities [`Product5`](crate::Strategy::Product5) and
+    /// [`Product9`](crate::Strategy::Product9) are the means of those that the channels that scatter have, so that each of them is
+    /// sampled well; the other densities are those of the mean medium. Weights, integrands and radiances are per channel.
     ///
     /// # Errors
     /// [`Error::Value`] if there are not 1, 3 or 4 channels, or where `new` has it, for any channel; also unless the means

@@ -3,7 +3,7 @@
 use super::blocks::{AHEAD, Block, Geometries, SetUps, Tally, Wanted, for_each_block, for_each_run, set_up};
 use super::{Method, OfDensity, Out, Task, by_strategy};
 use crate::Precision;
-use crate::batch::{ChannelGroups, Counts, Inputs, MediumGroups, OfRuns, OfSamples, RayGroups, Samples, Turn};
+use crate::batch::{Counts, Inputs, MediumGroups, OfRuns, OfSamples, RayGroups, Samples, Turn};
 use crate::density::{Density, Kind, SetUp};
 use crate::geometry::{Extent, Geometry, Point};
 use crate::integrand::{MediumLanes, integrand_r2};
@@ -42,13 +42,15 @@ impl<const WITH_WEIGHT_OR_R: bool> OfDensity for Drawing<WITH_WEIGHT_OR_R> {
         let mut tally = Tally::new(isa, inputs);
         let (mut set_ups, mut places, mut points) = (SetUps::<I, D>::new(), Records::new(), Records::new());
         let mut pad = None;
+        // Set-ups of spots and colours are compiled once, in a pass of their own.
+        let once = inputs.per_ray == 1 && inputs.are_plain();
         let wanted = Wanted {
             precision,
             extent: if WITH_WEIGHT_OR_R { Extent::Cosine } else { D::On::<I>::EXTENT },
-            records: if inputs.per_ray == 1 { GROUPS } else { SetUps::<I, D>::SIZE },
+            records: if once { GROUPS } else { SetUps::<I, D>::SIZE },
         };
         for_each_block(isa, inputs, wanted, |block| {
-            if inputs.per_ray == 1 {
+            if once {
                 let run = block.one_turn();
                 let u = run.values(inputs.given, &mut pad);
                 return OfSamples::of_run(&mut out, run, |mut out| {
@@ -76,7 +78,8 @@ impl<const WITH_WEIGHT_OR_R: bool> OfDensity for Drawing<WITH_WEIGHT_OR_R> {
     }
 }
 
-/// One variate for each ray: set-up, inversion and output in one pass, as nothing of a set-up is used again.
+/// One variate for each ray, without spots and colours: set-up, inversion and output in one pass, as nothing of a set-up is used
+/// again.
 struct Once<'p, I: Isa> {
     block: &'p Block<'p, I>,
     u: &'p [f32],
@@ -119,7 +122,6 @@ impl<I: Isa> Once<'_, I> {
             u: &I::groups(self.u)[..groups.len()],
             medium: media.media(isa, 0),
             media,
-            channels: self.block.channels(isa),
         }
     }
 }
@@ -132,7 +134,6 @@ struct Stations<'p, I: Isa> {
     u: &'p [I::Group],
     media: MediumGroups<'p, I>,
     medium: MediumLanes<I>,
-    channels: Option<ChannelGroups<'p, I>>,
 }
 
 impl<I: Isa> Stations<'_, I> {
@@ -148,11 +149,8 @@ impl<I: Isa> Stations<'_, I> {
         let (group, geometry) = (self.first + record, self.geometries.get(record));
         self.media.renew(isa, record, &mut self.medium);
         let ray = self.rays.lanes(isa, group);
-        let channels = match &self.channels {
-            Some(channels) => Some(channels.lanes(isa, record)),
-            None => None,
-        };
-        let set_up = SetUp::<I, D::On<I>>::new(isa, &ray, geometry, &self.medium, channels.as_ref());
+        let geometry = Geometry { cone: None, ..geometry };
+        let set_up = SetUp::<I, D::On<I>>::new(isa, &ray, geometry, &self.medium, None);
         let placed = Placed::new(isa, geometry, &set_up, &self.u[record]);
         point_one::<I, D>(isa, geometry, &set_up, &placed, t, pdf, tally)
     }
