@@ -16,6 +16,9 @@ pub(crate) trait Number: Element + Copy {
 
     /// The scalar that `value` is, if it is a plain Python number.
     fn plain(value: &Bound<'_, PyAny>) -> Option<Self>;
+
+    /// The array that `value` is but for the width of its numbers: what numpy would do takes longer for few of them.
+    fn narrowed<'py>(value: &Bound<'py, PyAny>) -> Option<Bound<'py, PyArrayDyn<Self>>>;
 }
 
 impl Number for f32 {
@@ -25,12 +28,21 @@ impl Number for f32 {
         let is_plain = value.is_exact_instance_of::<PyFloat>() || value.is_exact_instance_of::<PyInt>();
         is_plain.then(|| value.extract::<f64>().ok()).flatten().map(|value| value as Self)
     }
+
+    fn narrowed<'py>(value: &Bound<'py, PyAny>) -> Option<Bound<'py, PyArrayDyn<Self>>> {
+        let wide = in_order::<f64>(value)?.try_readonly().ok()?;
+        Some(PyArrayDyn::from_owned_array(value.py(), wide.as_array().mapv(|number| number as Self)))
+    }
 }
 
 impl Number for u32 {
     const CONVERT: &'static str = "indices";
 
     fn plain(_: &Bound<'_, PyAny>) -> Option<Self> {
+        None
+    }
+
+    fn narrowed<'py>(_: &Bound<'py, PyAny>) -> Option<Bound<'py, PyArrayDyn<Self>>> {
         None
     }
 }
@@ -54,13 +66,15 @@ impl Display for Field {
     }
 }
 
+/// `value` itself, if it is an array of such numbers, next to each other in row-major order.
+fn in_order<'a, 'py, T: Element>(value: &'a Bound<'py, PyAny>) -> Option<&'a Bound<'py, PyArrayDyn<T>>> {
+    value.cast::<PyArrayDyn<T>>().ok().filter(|array| array.is_c_contiguous() && array.is_aligned())
+}
+
 /// An array of any shape, its values next to each other in row-major order: `value` itself where it is one.
 pub(crate) fn array<'py, T: Number>(field: Field, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<T>>> {
-    if let Ok(array) = value.cast::<PyArrayDyn<T>>()
-        && array.is_c_contiguous()
-        && array.is_aligned()
-    {
-        return Ok(array.clone());
+    if let Some(array) = in_order(value).cloned().or_else(|| T::narrowed(value)) {
+        return Ok(array);
     }
     static ARRAYS: PyOnceLock<Py<PyModule>> = PyOnceLock::new();
     let py = value.py();
