@@ -141,7 +141,7 @@ impl Sampler {
     /// # Errors
     /// [`Error::Length`] if a column has another length than `rays.origin[0]`, or `u` one that is no multiple of it, or
     /// an output another one than `u`; [`Error::Empty`] for a table without entries, also with no rays;
-    /// [`Error::Unavailable`] for spots and coloured media, which have no kernel yet. Nothing is written then.
+    /// [`Error::Unavailable`] for coloured media, which have no kernel yet. Nothing is written then.
     pub fn sample(
         &self,
         rays: &Rays<'_>,
