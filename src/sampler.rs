@@ -173,6 +173,7 @@ impl Sampler {
     /// | product densities at the very ends of the interval, where they may vanish | 14 | 128 |
     /// | `Product3` next to the emitter | 9 | 64 |
     /// | `Product3` next to the emitter, with `1 - abs(g)` from 2^-24 to 1e-3 (family `peaks`) | 17 | 96 |
+    /// | product densities of spots | 10 | 64 |
     /// | product densities on arbitrary bits | 10 | no promise |
     ///
     /// What limits `peaks` is the set-up in f32: where the line of three knots falls from a peak to next to nothing, its value
@@ -270,7 +271,7 @@ impl Sampler {
     }
 
     /// [`sample`](Self::sample) for one ray; `None` if it has no sample, or `u` is not in `[0, 1]`, or `sample` has no kernel
-    /// for the emitter or the medium.
+    /// for the medium.
     #[must_use]
     pub fn sample_one(&self, ray: &Ray, emitter: &Emitter, medium: &Medium, u: f32) -> Option<Sample> {
         let [mut t, mut pdf, mut weight, mut r] = [0.0; 4];
@@ -280,7 +281,7 @@ impl Sampler {
         (counts.sampled == 1).then_some(Sample { t, pdf, weight, r })
     }
 
-    /// [`pdf`](Self::pdf) for one ray; 0 if there is no kernel for the emitter or the medium.
+    /// [`pdf`](Self::pdf) for one ray; 0 if there is no kernel for the medium.
     #[must_use]
     pub fn pdf_one(&self, ray: &Ray, emitter: &Emitter, medium: &Medium, t: f32) -> f32 {
         let mut pdf = 0.0;
@@ -288,7 +289,7 @@ impl Sampler {
         pdf
     }
 
-    /// [`cdf`](Self::cdf) for one ray; 0 if there is no kernel for the emitter or the medium.
+    /// [`cdf`](Self::cdf) for one ray; 0 if there is no kernel for the medium.
     #[must_use]
     pub fn cdf_one(&self, ray: &Ray, emitter: &Emitter, medium: &Medium, t: f32) -> f32 {
         let mut cdf = 0.0;
@@ -296,7 +297,7 @@ impl Sampler {
         cdf
     }
 
-    /// [`evaluate`](Self::evaluate) for one ray; 0 if there is no kernel for the emitter or the medium.
+    /// [`evaluate`](Self::evaluate) for one ray; 0 if there is no kernel for the medium.
     #[must_use]
     pub fn evaluate_one(&self, ray: &Ray, emitter: &Emitter, medium: &Medium, t: f32) -> f32 {
         let mut integrand = 0.0;
