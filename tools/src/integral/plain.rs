@@ -75,8 +75,8 @@ impl Line {
 /// in both halves of the double cone.
 fn inside((at_foot, slope): (f64, f64), c: f64, h: f64) -> (f64, f64) {
     const NOWHERE: (f64, f64) = (f64::INFINITY, f64::NEG_INFINITY);
-    let (square, half, rest) = (slope * slope - c * c, at_foot * slope, at_foot * at_foot - c * c * h * h);
-    let root = (half * half - square * rest).max(0.0).sqrt();
+    let (square, half) = (slope * slope - c * c, at_foot * slope);
+    let root = c * (at_foot * at_foot + square * h * h).max(0.0).sqrt();
     let [first, second] = [(-half - root) / square, (root - half) / square];
     if square > 0.0 {
         // A line that is steeper than the cone meets both halves.
