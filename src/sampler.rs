@@ -175,6 +175,7 @@ impl Sampler {
     /// | product densities at the very ends of the interval, where they may vanish | 14 | 128 |
     /// | `Product3` next to the emitter | 9 | 64 |
     /// | `Product3` next to the emitter, with `1 - abs(g)` from 2^-24 to 1e-3 (family `peaks`) | 17 | 96 |
+    /// | product densities of spots | 10 | 64 |
     /// | product densities on arbitrary bits | 10 | no promise |
     ///
     /// What limits `peaks` is the set-up in f32: where the line of three knots falls from a peak to next to nothing, its value
