@@ -195,7 +195,7 @@ impl Sampler {
     /// | all | all but what follows | 8 | 64 | `tests/hard_cases.rs` |
     /// | all | `generic` | 8 | 64; 1e-3, relative, at most | `tests/accuracy.rs` |
     /// | product densities | `variate`: at the ends of the interval, where they may vanish | 14 | 128 | `tests/hard_cases.rs` |
-    /// | product densities | `spot` | 10 | 64 | `airlight accuracy` |
+    /// | product densities | `spot`: the falloff at a knot has ten roundings more | 10 | 64 | `tests/hard_cases.rs` |
     /// | `Product3` | `near-emitter` | 9 | 64 | `tests/hard_cases.rs` |
     /// | `Product3` | `peaks`: `1 - abs(g)` from 2^-24 to 1e-3, next to an emitter | 17 | 96 | `tests/hard_cases.rs` |
     /// | product densities | `random-bits` | 10 | none | `tests/hard_cases.rs` |
@@ -272,7 +272,7 @@ impl Sampler {
     /// | error at the given `t` | where | test |
     /// |---|---|---|
     /// | 48 ulp at most | all families, the emitter at least 1e-7 of its distance off the ray's line | `tests/hard_cases.rs` |
-    /// | 32 ulp for 99.9 % of rays, 4096 at most | families `near-emitter` and `spot`, the emitter nearer to the line | `tests/hard_cases.rs`, `airlight accuracy` |
+    /// | 32 ulp for 99.9 % of rays, 4096 at most | families `near-emitter` and `spot`, the emitter nearer to the line | `tests/hard_cases.rs` |
     ///
     /// # Errors
     /// As [`sample`](Self::sample).
