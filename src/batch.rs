@@ -12,19 +12,19 @@ mod samples;
 mod source;
 
 pub use counts::Counts;
-pub(crate) use emitters::EmitterRows;
 pub use emitters::Emitters;
+pub(crate) use emitters::{ConeRows, EmitterRows};
 pub(crate) use inputs::Inputs;
 pub use media::Media;
-pub(crate) use media::{MediumGroups, MediumRows};
-pub(crate) use outputs::{Choices, Column, OfRuns, Outputs};
+pub(crate) use media::{ChannelGroups, MediaPlace, MediaRows, MediumGroups, MediumRows};
+pub(crate) use outputs::{Choices, Column, Columns, OfRuns, Outputs, columns};
 pub(crate) use pads::{Pad, Pads, first_values};
 pub(crate) use rays::RayGroups;
 pub use rays::Rays;
 pub(crate) use runs::{Run, Turn};
 pub(crate) use samples::OfSamples;
 pub use samples::Samples;
-pub(crate) use source::{Entry, Gathered, Rows};
+pub(crate) use source::{Gathered, Rows};
 
 use crate::simd::Isa;
 

@@ -1,7 +1,7 @@
 //! What every sampled density is to the kernels: a set-up, a draw, a pdf and a CDF.
 
 use crate::geometry::{Extent, Geometry, Point, RayLanes};
-use crate::integrand::MediumLanes;
+use crate::integrand::{ChannelLanes, MediumLanes};
 use crate::simd::{Isa, Lanes, Room};
 
 /// A density of which the instruction set is open.
@@ -18,8 +18,14 @@ pub(crate) trait Density<I: Isa>: Copy {
     /// Storage for the set-ups of a block, which is cut to as many lane groups where set-ups are large.
     type SetUps: Room<SetUp<I, Self>>;
 
-    /// What does not depend on the variate, and which lanes can be sampled.
-    fn new(isa: I, ray: &RayLanes<I>, geometry: Geometry<'_, I>, medium: &MediumLanes<I>) -> (Self, I::Mask);
+    /// What does not depend on the variate, and which lanes can be sampled. Of coloured media `medium` is the mean.
+    fn new(
+        isa: I,
+        ray: &RayLanes<I>,
+        geometry: Geometry<'_, I>,
+        medium: &MediumLanes<I>,
+        channels: Option<&ChannelLanes<I>>,
+    ) -> (Self, I::Mask);
 
     /// Where the CDF is `u`, increasing in `u`.
     fn draw(&self, isa: I, geometry: Geometry<'_, I>, u: I::V) -> Self::Place;
@@ -59,8 +65,14 @@ pub(crate) struct SetUp<I: Isa, D> {
 
 impl<I: Isa, D: Density<I>> SetUp<I, D> {
     #[cfg_attr(optimized, inline(always))]
-    pub(crate) fn new(isa: I, ray: &RayLanes<I>, geometry: Geometry<'_, I>, medium: &MediumLanes<I>) -> Self {
-        let (density, lit) = D::new(isa, ray, geometry, medium);
+    pub(crate) fn new(
+        isa: I,
+        ray: &RayLanes<I>,
+        geometry: Geometry<'_, I>,
+        medium: &MediumLanes<I>,
+        channels: Option<&ChannelLanes<I>>,
+    ) -> Self {
+        let (density, lit) = D::new(isa, ray, geometry, medium, channels);
         Self { density, valid: geometry.lit.valid & medium.valid, lit }
     }
 }

@@ -10,6 +10,18 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Error {
+    /// Media, or the columns that are written for them, have another number of channels than the rest of the call.
+    #[non_exhaustive]
+    Channels {
+        /// The table or the columns, such as `samples.weights`.
+        field: &'static str,
+        /// Which entry of the table.
+        index: Option<usize>,
+        /// How many it has.
+        channels: usize,
+        /// How many the media have.
+        expected: usize,
+    },
     /// A table has no entry.
     #[non_exhaustive]
     Empty {
@@ -62,6 +74,11 @@ impl Error {
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::Channels { field, index, channels, expected } => {
+                let entry = index.map_or(String::new(), |index| format!("[{index}]"));
+                let plural = if *channels == 1 { "" } else { "s" };
+                write!(f, "{field}{entry} has {channels} channel{plural}, expected {expected}")
+            }
             Self::Empty { field } => write!(f, "{field} is empty"),
             Self::Length { field, length, expected } => {
                 write!(f, "{field} has {length} elements, expected {expected}")

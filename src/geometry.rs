@@ -7,9 +7,11 @@
 //! They are found in f32, with what roundings leave where that matters (`single`), and in f64 (`double`) for the rays for
 //! which this is not enough.
 
+mod cone;
 mod double;
 mod single;
 
+pub(crate) use cone::{Cone, Ramp, SpotLanes, locate as in_cone};
 pub(crate) use single::{clip, find_foot};
 
 use crate::scene::{FARTHEST, UNIT_TOLERANCE};
@@ -115,6 +117,12 @@ impl<I: Isa> Cosine<I> {
         Self { m_least: zero, beta: zero, has_normal: none(isa) }
     }
 
+    /// `m` as a function along the ray.
+    #[cfg_attr(optimized, inline(always))]
+    pub(crate) fn ramp(&self, isa: I) -> Ramp<I> {
+        Ramp { least: self.m_least, slope: self.beta.abs(), rising: self.rising(isa) }
+    }
+
     /// Where `m` grows along the ray, or stays.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn rising(&self, isa: I) -> I::Mask {
@@ -154,6 +162,8 @@ pub(crate) struct Geometry<'g, I: Isa> {
     pub(crate) lit: &'g Lit<I>,
     pub(crate) cosine: &'g Cosine<I>,
     pub(crate) foot: &'g Foot<I>,
+    /// Where there are spots; other lanes have `is_spot` false.
+    pub(crate) cone: Option<&'g Cone<I>>,
 }
 
 /// The ends of the lit interval as the emitter sees them: at `a` and at `b`.
@@ -185,7 +195,7 @@ pub(crate) struct Point<I: Isa> {
     t_prime_low: I::V,
     /// Distance to the emitter \[m\].
     pub(crate) r: I::V,
-    /// `n.(x - y) = N r` \[m\], whatever it is without a normal; not negative.
+    /// `n.(x - y) = N r` \[m\], of a spot `S r`, whatever it is without either; not negative.
     m: I::V,
 }
 
@@ -216,7 +226,7 @@ pub(crate) fn pick<I: Isa>(hard: I::Mask, yes: &Located<I>, no: Geometry<'_, I>)
         Cosine {
             m_least: I::V::select(hard, cosine.m_least, no.cosine.m_least),
             beta: I::V::select(hard, cosine.beta, no.cosine.beta),
-            has_normal: cosine.has_normal,
+            has_normal: (hard & cosine.has_normal) | (!hard & no.cosine.has_normal),
         },
         Foot {
             h: I::V::select(hard, foot.h, no.foot.h),
@@ -290,12 +300,31 @@ impl<I: Isa> Geometry<'_, I> {
     }
 
     /// Which ends have less than `share` of `|alpha| + |beta|`, the size of the cosine, or where the interval subtends less
-    /// than a right angle, of the sum of those at the ends.
+    /// than a right angle, of the sum of those at the ends; of a spot, of its full intensity.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn dark_ends(&self, isa: I, ends: &Ends<I>, share: f32) -> [I::Mask; 2] {
         let (n_a, n_b) = (ends.n[0] * self.foot.h, ends.n[1] * self.foot.h);
         let least = I::V::select(self.wide(isa), self.greatest_cosine_h(), n_a + n_b) * isa.splat(share);
-        [n_a.lt(least), n_b.lt(least)]
+        let dark = [n_a.lt(least), n_b.lt(least)];
+        let Some(cone) = self.cone else { return dark };
+        let [s_a, s_b] = self.falloff_at_ends(isa, cone, ends);
+        let share = isa.splat(share);
+        [
+            (!cone.is_spot & dark[0]) | (cone.is_spot & s_a.lt(share)),
+            (!cone.is_spot & dark[1]) | (cone.is_spot & s_b.lt(share)),
+        ]
+    }
+
+    /// The falloff at the ends.
+    #[cfg_attr(optimized, inline(always))]
+    fn falloff_at_ends(&self, isa: I, cone: &Cone<I>, ends: &Ends<I>) -> [I::V; 2] {
+        let (zero, length, [r_a, r_b], [m_a, m_b]) = (isa.splat(0.0), self.lit.length, ends.r, self.m_at_ends(isa));
+        let [before_a, after_a] = [cone.before.between(zero, length), cone.after.between(zero, length)];
+        let [before_b, after_b] = [cone.before.between(length, zero), cone.after.between(length, zero)];
+        [
+            cone.falloff(isa, before_a / r_a, after_a / r_a, m_a / r_a),
+            cone.falloff(isa, before_b / r_b, after_b / r_b, m_b / r_b),
+        ]
     }
 
     /// The angle `Theta` that the lit interval subtends at the emitter, in `(0, pi]` \[rad\].
@@ -367,23 +396,36 @@ impl<I: Isa> Geometry<'_, I> {
         let t_prime = sign * t_prime;
 
         let rest = self.rest(isa, offset, t_prime, of_end(self.foot.b, self.foot.a));
-        let m = self.m_between(isa, of_end(offset, rest), of_end(rest, offset));
-        Point { t, t_prime, t_prime_low: c(0.0), r: self.foot.r(t_prime), m }
+        let r = self.foot.r(t_prime);
+        let m = self.m_between(isa, of_end(offset, rest), of_end(rest, offset), r);
+        Point { t, t_prime, t_prime_low: c(0.0), r, m }
     }
 
     /// The point at these distances from the ends and from the foot of the perpendicular.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn point_between(&self, isa: I, from_a: I::V, to_b: I::V, t_prime: I::V) -> Point<I> {
-        let m = self.m_between(isa, from_a, to_b);
+        let r = self.foot.r(t_prime);
+        let m = self.m_between(isa, from_a, to_b, r);
         let t = self.distance(t_prime, from_a, to_b);
-        Point { t, t_prime, t_prime_low: isa.splat(0.0), r: self.foot.r(t_prime), m }
+        Point { t, t_prime, t_prime_low: isa.splat(0.0), r, m }
     }
 
-    /// `m` from the end where it is smaller: both terms are positive.
+    /// `m` from the end where it is smaller: both terms are positive. Of a spot it is `S r`.
     #[cfg_attr(optimized, inline(always))]
-    fn m_between(&self, isa: I, from_a: I::V, to_b: I::V) -> I::V {
-        let rising = self.cosine.rising(isa);
-        self.cosine.beta.abs().mul_add(I::V::select(rising, from_a, to_b), self.cosine.m_least)
+    fn m_between(&self, isa: I, from_a: I::V, to_b: I::V, r: I::V) -> I::V {
+        let m = self.cosine.ramp(isa).between(from_a, to_b);
+        let Some(cone) = self.cone else { return m };
+        let [before, after] = [cone.before.between(from_a, to_b) / r, cone.after.between(from_a, to_b) / r];
+        I::V::select(cone.is_spot, cone.falloff(isa, before, after, m / r) * r, m)
+    }
+
+    /// `m` of a point on the ray: 0 outside the cone of a spot, also if its edge is hard.
+    #[cfg_attr(optimized, inline(always))]
+    fn m_inside(&self, isa: I, from_a: I::V, to_b: I::V, r: I::V) -> I::V {
+        let zero = isa.splat(0.0);
+        let m = self.m_between(isa, from_a.max(zero), to_b.max(zero), r);
+        let Some(cone) = self.cone else { return m };
+        I::V::only(!cone.is_spot | (zero.le(from_a) & zero.le(to_b)), m)
     }
 
     /// `m` at the ends of the lit interval.
@@ -406,8 +448,9 @@ impl<I: Isa> Geometry<'_, I> {
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn point_at_distance(&self, isa: I, t: I::V) -> Point<I> {
         let [t_prime, t_prime_low] = self.foot.t_prime(t);
-        let m = self.m_between(isa, self.way_from_a(isa, t), self.way_to_b(isa, t));
-        Point { t, t_prime, t_prime_low, r: self.foot.r(t_prime), m }
+        let r = self.foot.r(t_prime);
+        let m = self.m_inside(isa, (t - self.lit.a.t) - self.lit.a.t_low, (self.lit.b.t - t) + self.lit.b.t_low, r);
+        Point { t, t_prime, t_prime_low, r, m }
     }
 
     /// The point at the distance `s` from the start of the ray, no farther than its end.
@@ -417,11 +460,12 @@ impl<I: Isa> Geometry<'_, I> {
         let exact = t - self.foot.exact_t_h();
         let t_prime = I::V::narrow(exact);
         let t_prime_low = I::V::narrow(exact - t_prime.widen());
-        let from_a = I::V::narrow((t - self.lit.a.t.widen()) - self.lit.a.t_low.widen()).max(isa.splat(0.0));
-        let to_b = I::V::narrow((self.lit.b.t.widen() - t) + self.lit.b.t_low.widen()).max(isa.splat(0.0));
-        let m = self.m_between(isa, from_a, to_b);
+        let from_a = I::V::narrow((t - self.lit.a.t.widen()) - self.lit.a.t_low.widen());
+        let to_b = I::V::narrow((self.lit.b.t.widen() - t) + self.lit.b.t_low.widen());
+        let r = self.foot.r(t_prime);
+        let m = self.m_inside(isa, from_a, to_b, r);
         let t = (t_min + s).min(t_max);
-        Point { t, t_prime, t_prime_low, r: self.foot.r(t_prime), m }
+        Point { t, t_prime, t_prime_low, r, m }
     }
 
     /// The start of the lit interval, given `r` there.
@@ -482,10 +526,20 @@ impl<I: Isa> Geometry<'_, I> {
         t.max(self.lit.a.t).min(self.lit.b.t)
     }
 
-    /// The cosine `N` at a point.
+    /// The cosine `N` at a point; 1 of a spot.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn cosine(&self, isa: I, point: &Point<I>) -> I::V {
         I::V::select(self.cosine.has_normal, point.m / point.r, isa.splat(1.0))
+    }
+
+    /// The intensity at a point: the cosine `N`, or the falloff `S` of a spot.
+    #[cfg_attr(optimized, inline(always))]
+    pub(crate) fn intensity(&self, isa: I, point: &Point<I>) -> I::V {
+        let varies = match self.cone {
+            Some(cone) => self.cosine.has_normal | cone.is_spot,
+            None => self.cosine.has_normal,
+        };
+        I::V::select(varies, point.m / point.r, isa.splat(1.0))
     }
 }
 

@@ -5,7 +5,7 @@ pub(crate) mod rule;
 
 pub use nodes::{Nodes, UnknownNodes};
 
-use crate::batch::{Counts, Emitters, Inputs, Media, Rays};
+use crate::batch::{Counts, Emitters, Inputs, Media, Rays, columns};
 use crate::road::{self, Lights, Quadrature};
 use crate::scene::{Emitter, Medium, Ray};
 use crate::simd::Backend;
@@ -102,7 +102,7 @@ impl Integral {
     /// are.
     ///
     /// # Errors
-    /// [`Error::Length`] if a column has another length than `rays.origin[0]`; [`Error::Empty`] and [`Error::Unavailable`] as
+    /// [`Error::Length`] if a column has another length than `rays.origin[0]`; [`Error::Empty`] and [`Error::Channels`] as
     /// [`Sampler::sample`](crate::Sampler::sample). Nothing is written then.
     pub fn radiance(
         &self,
@@ -111,14 +111,53 @@ impl Integral {
         media: &Media<'_>,
         radiance: &mut [f32],
     ) -> Result<Counts, Error> {
+        self.radiances(rays, emitters, media, [radiance])
+    }
+
+    /// The same in coloured media: the radiance of each ray in every channel, a column for each.
+    ///
+    /// ```
+    /// # use airlight::{Emitter, Emitters, Integral, Media, Medium, Nodes, Rays};
+    /// let (zero, one, t_max) = ([0.0; 2], [1.0; 2], [9.0; 2]);
+    /// let rays = Rays::new([&zero; 3], [&zero, &zero, &one], &zero, &t_max);
+    /// let lamp = Emitters::one(Emitter::point([0.0, 1.0, 3.0])?);
+    /// let smoke = Media::one(Medium::coloured([0.2, 0.3, 0.5], [0.4, 0.4, 0.0], 0.8)?);
+    /// let [mut red, mut green, mut blue] = [zero; 3];
+    /// Integral::new(Nodes::Eight).radiance_coloured(&rays, &lamp, &smoke, [&mut red, &mut green, &mut blue])?;
+    /// assert!(red[0] > green[0] && green[0] > blue[0] && blue[0] == 0.0);
+    /// # Ok::<(), airlight::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`radiance`](Self::radiance); [`Error::Channels`] unless there are as many columns as the media have channels.
+    pub fn radiance_coloured<const C: usize>(
+        &self,
+        rays: &Rays<'_>,
+        emitters: &Emitters<'_>,
+        media: &Media<'_>,
+        radiances: [&mut [f32]; C],
+    ) -> Result<Counts, Error> {
+        self.radiances(rays, emitters, media, radiances)
+    }
+
+    fn radiances<const C: usize>(
+        &self,
+        rays: &Rays<'_>,
+        emitters: &Emitters<'_>,
+        media: &Media<'_>,
+        radiances: [&mut [f32]; C],
+    ) -> Result<Counts, Error> {
         let inputs = Inputs::new(rays, emitters, media)?;
-        inputs.check("radiance", radiance)?;
-        Ok(road::travel::<road::Radiance>(self.threads, self.backend, self.quadrature(), &inputs, radiance))
+        inputs.check_channels("radiance", C)?;
+        radiances.iter().try_for_each(|radiance| inputs.check("radiance", radiance))?;
+        let out = columns(radiances);
+        Ok(road::travel::<road::Radiance>(self.threads, self.backend, self.quadrature(), &inputs, out))
     }
 
     /// Chooses one emitter of `table` for each ray, in proportion to its weight times the integral of this many nodes, which
     /// is what it adds to the ray's radiance: writes its index, and the probability with which it was chosen. That is the
-    /// ratio of the two sums to rounding, so that over the table the probabilities add up to 1. [`Nodes::Four`] are enough.
+    /// ratio of the two sums to rounding, so that over the table the probabilities add up to 1. [`Nodes::Four`] are enough. Of a
+    /// coloured medium the integral is that of its [mean](Medium::mean).
     ///
     /// `weights` has one value for each emitter, such as the mean of its intensity over the channels; an emitter with the
     /// weight 0 is never chosen. `u` has a variate in `[0, 1]` for each ray; it must be independent of those that distances are
@@ -158,7 +197,7 @@ impl Integral {
     /// # Errors
     /// [`Error::Empty`] for a table without emitters. [`Error::Length`] if `weights` has another length than `table`, or a
     /// column another one than `rays.origin[0]`. [`Error::Value`] for a weight that is negative or not finite, and for a table
-    /// of more than 2^24 emitters. [`Error::Unavailable`] for what has no kernel. Nothing is written then.
+    /// of more than 2^24 emitters. Nothing is written then.
     #[expect(clippy::too_many_arguments, reason = "columns in and columns out")]
     pub fn choose(
         &self,
@@ -185,12 +224,13 @@ impl Integral {
         Ok(road::travel::<road::Choose<'_>>(self.threads, self.backend, lights, &inputs, (index, probability)))
     }
 
-    /// [`radiance`](Self::radiance) of one ray; 0 if there is no kernel for the emitter or the medium.
+    /// [`radiance`](Self::radiance) of one ray; of a coloured medium that of its [mean](Medium::mean).
     #[must_use]
     pub fn radiance_one(&self, ray: &Ray, emitter: &Emitter, medium: &Medium) -> f32 {
         let mut radiance = 0.0;
         let scene = (ray, emitter, medium);
-        road::travel_one::<road::Radiance>(self.backend, self.quadrature(), scene, &[], from_mut(&mut radiance));
+        let out = columns([from_mut(&mut radiance)]);
+        road::travel_one::<road::Radiance>(self.backend, self.quadrature(), scene, &[], out);
         radiance
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::expansion::Expanded;
 use crate::geometry::{Geometry, Point, RayLanes};
+use crate::scene::MOST_CHANNELS;
 use crate::simd::math::exp;
 use crate::simd::{Isa, Lanes, Number};
 
@@ -15,6 +16,15 @@ pub(crate) struct MediumLanes<I: Isa> {
     pub(crate) phase: Expanded<I>,
     pub(crate) lobe: Lobe<I>,
     pub(crate) valid: I::Mask,
+}
+
+/// The channels of coloured media of a lane group.
+#[derive(Clone, Copy)]
+pub(crate) struct ChannelLanes<I: Isa> {
+    /// Those beyond `count` stand for nothing.
+    pub(crate) mu_t: [I::V; MOST_CHANNELS],
+    pub(crate) mu_s: [I::V; MOST_CHANNELS],
+    pub(crate) count: usize,
 }
 
 /// The phase function as product densities have it, with `A = 1 + g` and `B = 1 - g`.
@@ -50,7 +60,7 @@ impl<I: Isa> MediumLanes<I> {
     }
 }
 
-/// `mu_s T rho N` \[1/m\]: the integrand times `r^2`.
+/// `mu_s T rho N` \[1/m\]: the integrand times `r^2`, with the falloff `S` of a spot in place of `N`.
 #[cfg_attr(optimized, inline(always))]
 pub(crate) fn integrand_r2<I: Isa>(
     isa: I,
@@ -59,7 +69,8 @@ pub(crate) fn integrand_r2<I: Isa>(
     medium: &MediumLanes<I>,
     point: &Point<I>,
 ) -> I::V {
-    (medium.mu_s * transmittance(isa, ray, g, medium, point)) * (phase(isa, g, medium.g, point) * g.cosine(isa, point))
+    (medium.mu_s * transmittance(isa, ray, g, medium, point))
+        * (phase(isa, g, medium.g, point) * g.intensity(isa, point))
 }
 
 /// From `t_min` over the point to the emitter, (3).

@@ -1,3 +1,4 @@
+#![doc = include_str!("guide/links.md")]
 #![doc = include_str!("../README.md")]
 //!
 //! # The road
@@ -133,6 +134,8 @@ mod density;
 mod error;
 mod expansion;
 mod geometry;
+#[cfg(any(doc, doctest))]
+pub mod guide;
 mod integral;
 mod integrand;
 mod inversion;

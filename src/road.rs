@@ -19,7 +19,7 @@ pub(crate) use evaluate::Evaluate;
 pub(crate) use radiance::{Quadrature, Radiance};
 pub(crate) use sample::Sample;
 
-use crate::batch::{Counts, Entry, Inputs, Outputs, Pads, Rays, first_values};
+use crate::batch::{Counts, Inputs, Outputs, Pads, Rays, first_values};
 use crate::density::Kind;
 use crate::scene::{Emitter, Medium, Ray};
 use crate::simd::{Backend, Isa, Kernel, MOST_LANES, Machine};
@@ -147,9 +147,6 @@ pub(crate) fn travel_one<T: Task>(
     given: &[f32],
     out: Out<'_, T>,
 ) -> Counts {
-    if !emitter.is_supported() || !medium.is_supported() {
-        return Counts::default();
-    }
     let (origin, direction, t_min, t_max) = (ray.origin(), ray.direction(), ray.t_min(), ray.t_max());
     let rays = Rays::new(
         [0, 1, 2].map(|k| from_ref(&origin[k])),

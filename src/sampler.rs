@@ -1,6 +1,6 @@
 //! The public face: sample, pdf, cdf and evaluate, for a batch or for one ray.
 
-use crate::batch::{Counts, Emitters, Inputs, Media, Rays, Samples};
+use crate::batch::{Counts, Emitters, Inputs, Media, Rays, Samples, columns};
 use crate::road::Method;
 use crate::scene::{Emitter, Medium, Ray};
 use crate::simd::Backend;
@@ -141,7 +141,8 @@ impl Sampler {
     /// # Errors
     /// [`Error::Length`] if a column has another length than `rays.origin[0]`, or `u` one that is no multiple of it, or
     /// an output another one than `u`; [`Error::Empty`] for a table without entries, also with no rays;
-    /// [`Error::Unavailable`] for spots and coloured media, which have no kernel yet. Nothing is written then.
+    /// [`Error::Channels`] if the media of a table have different numbers of channels, or there are columns of weights and not as
+    /// many as channels; [`Error::Value`] for media of a number of channels that there is not. Nothing is written then.
     pub fn sample(
         &self,
         rays: &Rays<'_>,
@@ -153,9 +154,10 @@ impl Sampler {
         let inputs = Inputs::new(rays, emitters, media)?.with(u, "u")?;
         inputs.check_given("samples.t", samples.t)?;
         inputs.check_given("samples.pdf", samples.pdf)?;
-        if let Some(weight) = &samples.weight {
-            inputs.check_given("samples.weight", weight)?;
+        if samples.channels() > 0 {
+            inputs.check_channels("samples.weights", samples.channels())?;
         }
+        samples.weights.iter().flatten().try_for_each(|weight| inputs.check_given("samples.weights", weight))?;
         if let Some(r) = &samples.r {
             inputs.check_given("samples.r", r)?;
         }
@@ -245,9 +247,36 @@ impl Sampler {
         t: &[f32],
         integrand: &mut [f32],
     ) -> Result<Counts, Error> {
+        self.integrands(rays, emitters, media, t, [integrand])
+    }
+
+    /// The same in coloured media: the integrand in every channel, a column for each.
+    ///
+    /// # Errors
+    /// As [`sample`](Self::sample); [`Error::Channels`] unless there are as many columns as the media have channels.
+    pub fn evaluate_coloured<const C: usize>(
+        &self,
+        rays: &Rays<'_>,
+        emitters: &Emitters<'_>,
+        media: &Media<'_>,
+        t: &[f32],
+        integrands: [&mut [f32]; C],
+    ) -> Result<Counts, Error> {
+        self.integrands(rays, emitters, media, t, integrands)
+    }
+
+    fn integrands<const C: usize>(
+        &self,
+        rays: &Rays<'_>,
+        emitters: &Emitters<'_>,
+        media: &Media<'_>,
+        t: &[f32],
+        integrands: [&mut [f32]; C],
+    ) -> Result<Counts, Error> {
         let inputs = Inputs::new(rays, emitters, media)?.with(t, "t")?;
-        inputs.check_given("integrand", integrand)?;
-        Ok(self.travel::<road::Evaluate>(&inputs, integrand))
+        inputs.check_channels("integrand", C)?;
+        integrands.iter().try_for_each(|integrand| inputs.check_given("integrand", integrand))?;
+        Ok(self.travel::<road::Evaluate>(&inputs, columns(integrands)))
     }
 
     /// Goes the road of [`sample`](Self::sample) up to a stage and no further, to time it; nothing is written.
@@ -269,8 +298,8 @@ impl Sampler {
         Ok(())
     }
 
-    /// [`sample`](Self::sample) for one ray; `None` if it has no sample, or `u` is not in `[0, 1]`, or `sample` has no kernel
-    /// for the emitter or the medium.
+    /// [`sample`](Self::sample) for one ray; `None` if it has no sample, or `u` is not in `[0, 1]`. Of a coloured medium the
+    /// weight is that of its [mean](Medium::mean).
     #[must_use]
     pub fn sample_one(&self, ray: &Ray, emitter: &Emitter, medium: &Medium, u: f32) -> Option<Sample> {
         let [mut t, mut pdf, mut weight, mut r] = [0.0; 4];
@@ -280,7 +309,7 @@ impl Sampler {
         (counts.sampled == 1).then_some(Sample { t, pdf, weight, r })
     }
 
-    /// [`pdf`](Self::pdf) for one ray; 0 if there is no kernel for the emitter or the medium.
+    /// [`pdf`](Self::pdf) for one ray.
     #[must_use]
     pub fn pdf_one(&self, ray: &Ray, emitter: &Emitter, medium: &Medium, t: f32) -> f32 {
         let mut pdf = 0.0;
@@ -288,7 +317,7 @@ impl Sampler {
         pdf
     }
 
-    /// [`cdf`](Self::cdf) for one ray; 0 if there is no kernel for the emitter or the medium.
+    /// [`cdf`](Self::cdf) for one ray.
     #[must_use]
     pub fn cdf_one(&self, ray: &Ray, emitter: &Emitter, medium: &Medium, t: f32) -> f32 {
         let mut cdf = 0.0;
@@ -296,11 +325,11 @@ impl Sampler {
         cdf
     }
 
-    /// [`evaluate`](Self::evaluate) for one ray; 0 if there is no kernel for the emitter or the medium.
+    /// [`evaluate`](Self::evaluate) for one ray; of a coloured medium that of its [mean](Medium::mean).
     #[must_use]
     pub fn evaluate_one(&self, ray: &Ray, emitter: &Emitter, medium: &Medium, t: f32) -> f32 {
         let mut integrand = 0.0;
-        self.one::<road::Evaluate>(ray, emitter, medium, t, from_mut(&mut integrand));
+        self.one::<road::Evaluate>(ray, emitter, medium, t, columns([from_mut(&mut integrand)]));
         integrand
     }
 

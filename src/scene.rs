@@ -6,7 +6,7 @@ mod cone;
 pub use cone::Cone;
 
 use crate::Error;
-use colour::Colour;
+pub(crate) use colour::{Colour, MOST_CHANNELS};
 use glam::Vec3;
 
 /// Largest coordinate or distance that is resolved \[m\]. A finite or infinite `t_max` beyond it means this distance.
@@ -178,8 +178,9 @@ impl Medium {
     /// A medium of 1, 3 or 4 channels, with `mu_a` and `mu_s` \[1/m\] of each and one mean cosine `g` \[1\]. Of one channel
     /// it is that of [`new`](Self::new).
     ///
-    /// The oracle has coloured media, as [`Coloured`](crate::oracle::Coloured); the kernels do not yet, and calls with one
-    /// return [`Error::Unavailable`].
+    /// All channels share the distances of the samples. The densities [`Product5`](crate::Strategy::Product5) and
+    /// [`Product9`](crate::Strategy::Product9) are the means of those that the channels that scatter have, so that each of them is
+    /// sampled well; the other densities are those of the mean medium. Weights, integrands and radiances are per channel.
     ///
     /// # Errors
     /// [`Error::Value`] if there are not 1, 3 or 4 channels, or where `new` has it, for any channel; also unless the means
@@ -193,6 +194,11 @@ impl Medium {
         let (mean_a, mean_s) = colour.mean();
         let grey = Self::new(mean_a, mean_s, g)?;
         Ok(Self { colour: (C > 1).then_some(colour), ..grey })
+    }
+
+    /// `mu_a` and `mu_s` of all channels, of a grey medium the same in each.
+    pub(crate) fn coefficients(&self) -> ([f32; MOST_CHANNELS], [f32; MOST_CHANNELS]) {
+        self.colour.map_or(([self.mu_a; MOST_CHANNELS], [self.mu_s; MOST_CHANNELS]), |colour| colour.coefficients())
     }
 
     /// How many channels it has; 1 if it is grey.

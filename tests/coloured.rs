@@ -5,11 +5,13 @@ mod scenes;
 use airlight::oracle::quadrature::integrate_pieces;
 use airlight::oracle::{Coloured, Scene};
 use airlight::{Emitter, Medium, Ray, Strategy};
-use airlight_tools::contender::PRODUCTS;
 use glam::Vec3;
 use scenes::{Case, Random};
 
 const SEED: u64 = 16;
+
+/// The densities that are mixtures of those of the channels.
+const MIXED: [Strategy; 2] = [Strategy::Product5, Strategy::Product9];
 
 /// A random case with another medium.
 fn coloured(case: &Case, medium: &Medium) -> Coloured {
@@ -118,10 +120,10 @@ fn where_no_channel_scatters_there_is_a_density_and_no_light() {
 }
 
 #[test]
-fn densities_other_than_product_are_those_of_the_mean() {
+fn densities_other_than_product_5_and_9_are_those_of_the_mean() {
     for case in lit_cases(50) {
         let (three, mean) = (coloured(&case, &rgb()), Scene::new(&case.ray, &case.emitter, &rgb().mean()));
-        for &strategy in Strategy::ALL.iter().filter(|strategy| !PRODUCTS.contains(strategy)) {
+        for &strategy in Strategy::ALL.iter().filter(|strategy| !MIXED.contains(strategy)) {
             let t = mean.draw(strategy, 0.4);
             assert_eq!(three.draw(strategy, 0.4), t);
             assert_eq!(three.pdf(strategy, t), mean.pdf(strategy, t));

@@ -35,15 +35,14 @@ impl<'a> Inputs<'a> {
         }
         inputs.check("rays.t_min", rays.t_min)?;
         inputs.check("rays.t_max", rays.t_max)?;
-        emitters.0.check(inputs.len())?;
-        media.0.check(inputs.len())?;
+        emitters.check(inputs.len())?;
+        media.check(inputs.len())?;
         Ok(inputs)
     }
 
     /// The same for rays that each emitter of a table may light.
     pub(crate) fn with_table(rays: &Rays<'a>, table: &[Emitter], media: &Media<'a>) -> Result<Self, Error> {
         let [first, ..] = table else { return Err(Error::Empty { field: "table" }) };
-        table.iter().try_for_each(|emitter| Emitters::one(*emitter).0.check(0))?;
         Self::new(rays, &Emitters::one(*first), media)
     }
 
@@ -75,6 +74,18 @@ impl<'a> Inputs<'a> {
         Error::unless_length(field, column.len(), self.given.len())
     }
 
+    /// `Ok` if there are as many output columns as the media have channels; `field` is what they are called.
+    pub(crate) fn check_channels(&self, field: &'static str, channels: usize) -> Result<(), Error> {
+        let expected = self.media.channels();
+        let error = Error::Channels { field, index: None, channels, expected };
+        if channels == expected { Ok(()) } else { Err(error) }
+    }
+
+    /// Whether there are neither spots nor coloured media.
+    pub(crate) fn are_plain(&self) -> bool {
+        self.emitters.cones.is_none() && self.media.channels() == 1
+    }
+
     pub(crate) fn len(&self) -> usize {
         self.rays.len()
     }
@@ -87,8 +98,8 @@ impl<'a> Inputs<'a> {
     /// The rays of `range` alone.
     pub(crate) fn slice(&self, range: Range<usize>) -> Self {
         let given = self.given.get(range.start * self.per_ray..range.end * self.per_ray).unwrap_or_default();
-        let emitters = Emitters(self.emitters.0.part(range.clone()));
-        let media = Media(self.media.0.part(range.clone()));
+        let emitters = self.emitters.part(range.clone());
+        let media = self.media.part(range.clone());
         Self { rays: self.rays.part(range), emitters, media, given, ..*self }
     }
 

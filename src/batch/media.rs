@@ -1,14 +1,23 @@
 //! The medium of each ray.
 
-use super::source::{Entry, RowGroups, Rows, Source};
-use crate::integrand::MediumLanes;
-use crate::scene::Medium;
+use super::source::{Entry, Gathered, RowGroups, Rows, Source};
+use crate::Error;
+use crate::integrand::{ChannelLanes, MediumLanes};
+use crate::scene::{Colour, MOST_CHANNELS, Medium};
 use crate::simd::Isa;
+use core::ops::Range;
 
 /// The medium of each ray: [one](Self::one) for the batch, one per ray as [columns](Self::each), or a
-/// [table](Self::table) with an index per ray.
+/// [table](Self::table) with an index per ray. All of a call have as many channels.
 #[derive(Clone, Copy, Debug)]
-pub struct Media<'a>(pub(crate) Source<'a, Medium, COLUMNS>);
+pub struct Media<'a>(pub(super) Kind<'a>);
+
+/// Grey media, or coloured ones.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Kind<'a> {
+    Grey(Source<'a, Medium, COLUMNS>),
+    Coloured { source: Source<'a, Medium, CHANNEL_COLUMNS>, channels: usize },
+}
 
 impl<'a> Media<'a> {
     /// One for the whole batch.
@@ -16,11 +25,15 @@ impl<'a> Media<'a> {
     /// ```
     /// # use airlight::{Media, Medium};
     /// let fog = Media::one(Medium::new(0.01, 0.1, 0.6)?);
+    /// let smoke = Media::one(Medium::coloured([0.2, 0.3, 0.5], [0.4, 0.4, 0.3], 0.8)?);
     /// # Ok::<(), airlight::Error>(())
     /// ```
     #[must_use]
     pub fn one(medium: Medium) -> Self {
-        Self(Source::One(medium))
+        Self(match medium.channels() {
+            1 => Kind::Grey(Source::One(medium)),
+            channels => Kind::Coloured { source: Source::One(medium), channels },
+        })
     }
 
     /// One per ray, as columns of the batch's length, with the values of [`Medium::new`]: absorption and scattering
@@ -35,7 +48,28 @@ impl<'a> Media<'a> {
     #[doc(alias = "sigma_a")]
     #[doc(alias = "sigma_s")]
     pub fn each(mu_a: &'a [f32], mu_s: &'a [f32], g: &'a [f32]) -> Self {
-        Self(Source::Each([mu_a, mu_s, g]))
+        Self(Kind::Grey(Source::Each([mu_a, mu_s, g])))
+    }
+
+    /// One of 3 or 4 channels per ray, as columns of the batch's length, with the values of [`Medium::coloured`]: absorption and
+    /// scattering coefficients of each channel \[1/m\], mean cosines \[1\]. Of one channel it is [`each`](Self::each); any other
+    /// number is an error of the call.
+    ///
+    /// ```
+    /// # use airlight::Media;
+    /// let (red, green, blue, g) = ([0.1, 0.3], [0.2, 0.3], [0.4, 0.3], [0.6, -0.2]);
+    /// let air = Media::each_coloured([&[0.0; 2]; 3], [&red, &green, &blue], &g);
+    /// ```
+    #[must_use]
+    pub fn each_coloured<const C: usize>(mu_a: [&'a [f32]; C], mu_s: [&'a [f32]; C], g: &'a [f32]) -> Self {
+        if let ([mu_a], [mu_s]) = (&mu_a[..], &mu_s[..]) {
+            return Self::each(mu_a, mu_s, g);
+        }
+        // The first channel stands where there is none: nobody asks for it.
+        let padded = |columns: [&'a [f32]; C]| [0, 1, 2, 3].map(|c| columns.get(c).or(columns.first()).copied());
+        let ([a0, a1, a2, a3], [s0, s1, s2, s3]) = (padded(mu_a), padded(mu_s));
+        let columns = [a0, a1, a2, a3, s0, s1, s2, s3, Some(g)].map(Option::unwrap_or_default);
+        Self(Kind::Coloured { source: Source::Each(columns), channels: C })
     }
 
     /// `table[index[i]]` for ray `i`: `index` has the batch's length, `table` has any length but 0. An index out of range
@@ -49,14 +83,180 @@ impl<'a> Media<'a> {
     /// ```
     #[must_use]
     pub fn table(table: &'a [Medium], index: &'a [u32]) -> Self {
-        Self(Source::Table { table, index })
+        let channels = table.iter().map(Medium::channels).max().unwrap_or(1);
+        Self(match channels {
+            1 => Kind::Grey(Source::Table { table, index }),
+            channels => Kind::Coloured { source: Source::Table { table, index }, channels },
+        })
+    }
+
+    /// How many channels they have.
+    pub(crate) fn channels(&self) -> usize {
+        match self.0 {
+            Kind::Grey(_) => 1,
+            Kind::Coloured { channels, .. } => channels,
+        }
+    }
+
+    /// `Ok` if there is one for each of so many rays, and all have as many channels.
+    pub(super) fn check(&self, rays: usize) -> Result<(), Error> {
+        match &self.0 {
+            Kind::Grey(source) => source.check(rays),
+            Kind::Coloured { source, channels } => {
+                let channels = *channels;
+                Error::unless(matches!(channels, 3 | 4), "channels", channels as f32, "1, 3 or 4")?;
+                source.check(rays)?;
+                let Source::Table { table, .. } = source else { return Ok(()) };
+                let differs = |medium: &Medium| medium.channels() != channels;
+                table.iter().position(differs).map_or(Ok(()), |index| {
+                    let field = <Medium as Entry<COLUMNS>>::TABLE;
+                    Err(Error::Channels {
+                        field,
+                        index: Some(index),
+                        channels: table[index].channels(),
+                        expected: channels,
+                    })
+                })
+            }
+        }
+    }
+
+    /// Those of the rays of `range`.
+    pub(super) fn part(&self, range: Range<usize>) -> Self {
+        Self(match self.0 {
+            Kind::Grey(source) => Kind::Grey(source.part(range)),
+            Kind::Coloured { source, channels } => Kind::Coloured { source: source.part(range), channels },
+        })
+    }
+
+    /// Those of the rays of `range`, at most [`MOST_RAYS`](super::MOST_RAYS), by way of `place`.
+    pub(crate) fn rows<'r>(&self, range: Range<usize>, place: &'r mut MediaPlace) -> MediaRows<'r>
+    where
+        'a: 'r,
+    {
+        match &self.0 {
+            Kind::Grey(source) => MediaRows { means: source.rows(range, &mut place.grey), channels: None },
+            Kind::Coloured { source, channels } => {
+                let rows = source.rows(range, &mut place.given).with_means(*channels, &mut place.with_means);
+                MediaRows {
+                    means: rows.select([MEAN_A, MEAN_S, G]),
+                    channels: Some(ChannelRows { rows, count: *channels }),
+                }
+            }
+        }
     }
 }
 
 /// Columns of a medium: `mu_a`, `mu_s` and `g`.
 pub(super) const COLUMNS: usize = 3;
+/// Of a coloured one: `mu_a` of all channels, `mu_s` of all channels, and `g`.
+pub(super) const CHANNEL_COLUMNS: usize = 2 * MOST_CHANNELS + 1;
+/// The same, and the means of `mu_a` and of `mu_s`.
+const WITH_MEANS: usize = CHANNEL_COLUMNS + 2;
+/// Where these are.
+const G: usize = CHANNEL_COLUMNS - 1;
+const MEAN_A: usize = CHANNEL_COLUMNS;
+const MEAN_S: usize = CHANNEL_COLUMNS + 1;
+
+/// Place for the media of a block.
+pub(crate) struct MediaPlace {
+    grey: Gathered<COLUMNS>,
+    given: Gathered<CHANNEL_COLUMNS>,
+    with_means: Gathered<WITH_MEANS>,
+}
+
+impl MediaPlace {
+    /// Nothing yet.
+    pub(crate) fn new() -> Self {
+        Self { grey: Gathered::new(), given: Gathered::new(), with_means: Gathered::new() }
+    }
+}
+
+impl<'r> Rows<'r, CHANNEL_COLUMNS> {
+    /// The same with the means; all values NaN where one of them is none of a medium.
+    fn with_means<'p>(&self, channels: usize, place: &'p mut Gathered<WITH_MEANS>) -> Rows<'p, WITH_MEANS> {
+        match self {
+            Self::One(row) => Rows::One(with_means(row, channels)),
+            Self::Each(columns) => {
+                let row = |ray: usize| with_means(&columns.map(|column| column[ray]), channels);
+                Rows::Each(place.fill(columns[0].len(), row))
+            }
+        }
+    }
+}
+
+fn with_means(row: &[f32; CHANNEL_COLUMNS], channels: usize) -> [f32; WITH_MEANS] {
+    let [a0, a1, a2, a3, s0, s1, s2, s3, g] = *row;
+    let (mu_a, mu_s) = ([a0, a1, a2, a3], [s0, s1, s2, s3]);
+    let is_medium = |c: usize| mu_a[c] >= 0.0 && mu_s[c] >= 0.0 && mu_a[c] + mu_s[c] <= f32::MAX;
+    if !(0..channels).all(is_medium) {
+        return [f32::NAN; WITH_MEANS];
+    }
+    let (mean_a, mean_s) = Colour::new(&mu_a[..channels], &mu_s[..channels]).mean();
+    [a0, a1, a2, a3, s0, s1, s2, s3, g, mean_a, mean_s]
+}
 
 /// The media of some rays.
+#[derive(Clone, Copy)]
+pub(crate) struct MediaRows<'r> {
+    /// Grey ones, or the means of coloured ones.
+    pub(crate) means: MediumRows<'r>,
+    /// The channels of coloured ones.
+    pub(crate) channels: Option<ChannelRows<'r>>,
+}
+
+impl<'r> MediaRows<'r> {
+    /// Those of the rays of `range`.
+    pub(crate) fn part(&self, range: Range<usize>) -> Self {
+        let channels =
+            self.channels.map(|ChannelRows { rows, count }| ChannelRows { rows: rows.part(range.clone()), count });
+        Self { means: self.means.part(range), channels }
+    }
+
+    /// The grey media of a channel, if it is written to a column of its own; the means else.
+    pub(crate) fn of_output(&self, column: usize, columns: usize) -> MediumRows<'r> {
+        match &self.channels {
+            Some(channels) if columns > 1 => channels.channel(column),
+            _ => self.means,
+        }
+    }
+}
+
+/// The channels of coloured media.
+#[derive(Clone, Copy)]
+pub(crate) struct ChannelRows<'r> {
+    rows: Rows<'r, WITH_MEANS>,
+    count: usize,
+}
+
+impl<'r> ChannelRows<'r> {
+    fn channel(&self, c: usize) -> MediumRows<'r> {
+        self.rows.select([c, MOST_CHANNELS + c, G])
+    }
+
+    /// Their lane groups.
+    #[cfg_attr(optimized, inline(always))]
+    pub(crate) fn groups<I: Isa>(&self, isa: I) -> ChannelGroups<'r, I> {
+        ChannelGroups { groups: self.rows.groups(isa), count: self.count }
+    }
+}
+
+/// The same in lane groups.
+pub(crate) struct ChannelGroups<'r, I: Isa> {
+    groups: RowGroups<'r, I, WITH_MEANS>,
+    count: usize,
+}
+
+impl<I: Isa> ChannelGroups<'_, I> {
+    /// The channels of lane group `index`.
+    #[cfg_attr(optimized, inline(always))]
+    pub(crate) fn lanes(&self, isa: I, index: usize) -> ChannelLanes<I> {
+        let [a0, a1, a2, a3, s0, s1, s2, s3, ..] = self.groups.lanes(isa, index);
+        ChannelLanes { mu_t: [a0 + s0, a1 + s1, a2 + s2, a3 + s3], mu_s: [s0, s1, s2, s3], count: self.count }
+    }
+}
+
+/// Grey media of some rays.
 pub(crate) type MediumRows<'r> = Rows<'r, COLUMNS>;
 
 /// The same in lane groups.
@@ -66,15 +266,32 @@ impl Entry<COLUMNS> for Medium {
     const COLUMNS: [&'static str; COLUMNS] = ["media.mu_a", "media.mu_s", "media.g"];
     const TABLE: &'static str = "media.table";
     const INDEX: &'static str = "media.index";
-    const UNSUPPORTED: &'static str = "coloured media";
-
-    fn is_supported(&self) -> bool {
-        self.channels() == 1
-    }
 
     #[inline]
     fn row(&self) -> [f32; COLUMNS] {
         [self.mu_a(), self.mu_s(), self.g()]
+    }
+}
+
+impl Entry<CHANNEL_COLUMNS> for Medium {
+    const COLUMNS: [&'static str; CHANNEL_COLUMNS] = [
+        "media.mu_a[0]",
+        "media.mu_a[1]",
+        "media.mu_a[2]",
+        "media.mu_a[3]",
+        "media.mu_s[0]",
+        "media.mu_s[1]",
+        "media.mu_s[2]",
+        "media.mu_s[3]",
+        "media.g",
+    ];
+    const TABLE: &'static str = <Self as Entry<COLUMNS>>::TABLE;
+    const INDEX: &'static str = <Self as Entry<COLUMNS>>::INDEX;
+
+    #[inline]
+    fn row(&self) -> [f32; CHANNEL_COLUMNS] {
+        let ([a0, a1, a2, a3], [s0, s1, s2, s3]) = self.coefficients();
+        [a0, a1, a2, a3, s0, s1, s2, s3, self.g()]
     }
 }
 

@@ -1,5 +1,6 @@
 //! The columns that a call writes, and how they are split.
 
+use super::runs::RunPad;
 use super::{Pad, Run};
 use crate::simd::MOST_LANES;
 use core::ops::Range;
@@ -52,6 +53,64 @@ impl OfRuns for Column {
             Some(range) => write(&mut out[range]),
             None => run.scatter(out, write),
         }
+    }
+}
+
+/// Some columns, of which some are wanted.
+pub(crate) struct Columns<const N: usize>;
+
+/// The first ones of `N` columns.
+pub(crate) fn columns<'a, const N: usize, const C: usize>(given: [&'a mut [f32]; C]) -> [Option<&'a mut [f32]>; N] {
+    let mut given = given.into_iter();
+    [(); N].map(|()| given.next())
+}
+
+impl<const N: usize> Outputs for Columns<N> {
+    type At<'a> = [Option<&'a mut [f32]>; N];
+
+    fn split_at<'a>(out: Self::At<'a>, k: usize) -> (Self::At<'a>, Self::At<'a>) {
+        let mut rest = [const { None }; N];
+        let mut at = 0;
+        let low = out.map(|column| {
+            let (low, high) = column.map(|column| column.split_at_mut(k)).unzip();
+            rest[at] = high;
+            at += 1;
+            low
+        });
+        (low, rest)
+    }
+
+    fn part<'b>(out: &'b mut Self::At<'_>, range: Range<usize>) -> Self::At<'b> {
+        out.each_mut().map(|column| column.as_mut().map(|column| &mut column[range.clone()]))
+    }
+
+    fn by_pads<R>(out: Self::At<'_>, write: impl FnOnce(Self::At<'_>) -> R) -> R {
+        let mut pads: [Pad; N] = [[0.0; MOST_LANES]; N];
+        let wanted = out.each_ref().map(Option::is_some);
+        let mut is_wanted = wanted.into_iter();
+        let result = write(pads.each_mut().map(|pad| is_wanted.next().unwrap_or(false).then_some(&mut pad[..])));
+        for (column, pad) in out.into_iter().zip(pads) {
+            if let Some(column) = column {
+                column.copy_from_slice(&pad[..column.len()]);
+            }
+        }
+        result
+    }
+}
+
+impl<const N: usize> OfRuns for Columns<N> {
+    fn of_run<R>(out: &mut Self::At<'_>, run: Run<'_>, write: impl FnOnce(Self::At<'_>) -> R) -> R {
+        if let Some(range) = run.together() {
+            return write(Self::part(out, range));
+        }
+        let mut pads = out.each_ref().map(|column| column.is_some().then(RunPad::new));
+        let result = write(pads.each_mut().map(|pad| pad.as_mut().map(|pad| pad.of(run))));
+        for (column, pad) in out.iter_mut().zip(&pads) {
+            if let (Some(column), Some(pad)) = (column, pad) {
+                run.copy(pad, column);
+            }
+        }
+        result
     }
 }
 

@@ -1,5 +1,6 @@
 //! Columns for one lane group, made of fewer rays than it has lanes.
 
+use super::media::Kind;
 use super::source::Source;
 use super::{Emitters, Inputs, Media, Rays, emitters, media};
 use crate::simd::MOST_LANES;
@@ -13,14 +14,17 @@ const NOTHING: Pad = [0.0; MOST_LANES];
 pub(crate) struct Pads {
     rays: [Pad; 8],
     emitters: SourcePads<{ emitters::COLUMNS }>,
+    cones: SourcePads<{ emitters::CONE_COLUMNS }>,
     media: SourcePads<{ media::COLUMNS }>,
+    channels: SourcePads<{ media::CHANNEL_COLUMNS }>,
 }
 
 impl Pads {
     /// Nothing yet.
     #[inline]
     pub(crate) fn new() -> Self {
-        Self { rays: [NOTHING; 8], emitters: SourcePads::new(), media: SourcePads::new() }
+        let (emitters, cones) = (SourcePads::new(), SourcePads::new());
+        Self { rays: [NOTHING; 8], emitters, cones, media: SourcePads::new(), channels: SourcePads::new() }
     }
 
     /// A lane group of so many lanes: the rays of `inputs` one after the other, then the first one again.
@@ -30,8 +34,16 @@ impl Pads {
             filled(&mut self.rays, [ox, oy, oz, dx, dy, dz, t_min, t_max], lanes);
         Inputs {
             rays: Rays { origin: [ox, oy, oz], direction: [dx, dy, dz], t_min, t_max },
-            emitters: Emitters(self.emitters.fill(inputs.emitters.0, lanes)),
-            media: Media(self.media.fill(inputs.media.0, lanes)),
+            emitters: Emitters {
+                points: self.emitters.fill(inputs.emitters.points, lanes),
+                cones: inputs.emitters.cones.map(|cones| self.cones.fill(cones, lanes)),
+            },
+            media: Media(match inputs.media.0 {
+                Kind::Grey(source) => Kind::Grey(self.media.fill(source, lanes)),
+                Kind::Coloured { source, channels } => {
+                    Kind::Coloured { source: self.channels.fill(source, lanes), channels }
+                }
+            }),
             ..*inputs
         }
     }

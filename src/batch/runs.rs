@@ -23,8 +23,13 @@ pub(crate) enum Order {
 pub(crate) struct RunPad([f32; GROUPS * MOST_LANES]);
 
 impl RunPad {
-    fn new() -> Self {
+    pub(super) fn new() -> Self {
         Self([0.0; GROUPS * MOST_LANES])
+    }
+
+    /// Place for the values of a run.
+    pub(super) fn of(&mut self, run: Run<'_>) -> &mut [f32] {
+        &mut self.0[..run.len()]
     }
 }
 
@@ -74,7 +79,13 @@ impl Run<'_> {
     /// Has `write` write its values of `column`, which do not lie next to each other, to a pad.
     pub(super) fn scatter<R>(&self, column: &mut [f32], write: impl FnOnce(&mut [f32]) -> R) -> R {
         let mut pad = RunPad::new();
-        let result = write(&mut pad.0[..self.len()]);
+        let result = write(pad.of(*self));
+        self.copy(&pad, column);
+        result
+    }
+
+    /// Copies its values from a pad to a column where they do not lie next to each other.
+    pub(super) fn copy(&self, pad: &RunPad, column: &mut [f32]) {
         for (turn, lanes) in self.turns.iter().zip(pad.0.chunks_exact(self.lanes)) {
             let of_group = &mut column[(self.first + turn.record) * self.lanes * self.per_ray..];
             let mut at = turn.index;
@@ -84,6 +95,5 @@ impl Run<'_> {
                 at += self.per_ray;
             }
         }
-        result
     }
 }

@@ -1,7 +1,7 @@
 //! Where samples are written.
 
-use super::{Column, OfRuns, Outputs, Pad, Run};
-use crate::simd::MOST_LANES;
+use super::{Column, Columns, OfRuns, Outputs, Run, columns};
+use crate::scene::MOST_CHANNELS;
 use core::ops::Range;
 
 /// Where a batch of samples is written; every column has the length of the variates: that of the batch, or a multiple of
@@ -21,7 +21,9 @@ pub struct Samples<'a> {
     /// `T` takes the whole leg from the sample to the emitter to lie in the medium. If the length `outside` \[m\] of it does
     /// not, as with a lamp outside the fog, `weight * exp(mu_t * outside)` is the unbiased estimate. A transmittance below
     /// f32's range, at an optical depth above 87, makes the weight 0: there is nothing to correct then.
-    pub weight: Option<&'a mut [f32]>,
+    ///
+    /// None, or one for each channel of the medium, from the first on.
+    pub weights: [Option<&'a mut [f32]>; MOST_CHANNELS],
     /// Distances from the samples to the emitters \[m\], exact also where `t` alone cannot resolve them.
     pub r: Option<&'a mut [f32]>,
 }
@@ -36,13 +38,25 @@ impl<'a> Samples<'a> {
     /// ```
     #[must_use]
     pub fn new(t: &'a mut [f32], pdf: &'a mut [f32]) -> Self {
-        Self { t, pdf, weight: None, r: None }
+        Self { t, pdf, weights: columns([]), r: None }
     }
 
-    /// Weights as well.
+    /// Weights as well, of a grey medium.
     #[must_use]
     pub fn weight(self, weight: &'a mut [f32]) -> Self {
-        Self { weight: Some(weight), ..self }
+        self.weights([weight])
+    }
+
+    /// Weights as well, a column for each channel of a coloured medium; columns beyond the fourth are not written.
+    ///
+    /// ```
+    /// # use airlight::Samples;
+    /// let [mut t, mut pdf, mut red, mut green, mut blue] = [[0.0; 8]; 5];
+    /// let samples = Samples::new(&mut t, &mut pdf).weights([&mut red, &mut green, &mut blue]);
+    /// ```
+    #[must_use]
+    pub fn weights<const C: usize>(self, weights: [&'a mut [f32]; C]) -> Self {
+        Self { weights: columns(weights), ..self }
     }
 
     /// Distances to the emitters as well.
@@ -51,11 +65,30 @@ impl<'a> Samples<'a> {
         Self { r: Some(r), ..self }
     }
 
+    /// How many columns of weights there are.
+    pub(crate) fn channels(&self) -> usize {
+        self.weights.iter().flatten().count()
+    }
+
     /// The same columns, borrowed.
     pub(crate) fn reborrow(&mut self) -> Samples<'_> {
-        Samples { t: self.t, pdf: self.pdf, weight: self.weight.as_deref_mut(), r: self.r.as_deref_mut() }
+        let weights = self.weights.each_mut().map(Option::as_deref_mut);
+        Samples { t: self.t, pdf: self.pdf, weights, r: self.r.as_deref_mut() }
+    }
+
+    /// The columns that are there always, and those that may be wanted.
+    fn columns(self) -> ([&'a mut [f32]; 2], Optional<'a>) {
+        let [w_0, w_1, w_2, w_3] = self.weights;
+        ([self.t, self.pdf], [w_0, w_1, w_2, w_3, self.r])
+    }
+
+    fn of([t, pdf]: [&'a mut [f32]; 2], [w_0, w_1, w_2, w_3, r]: Optional<'a>) -> Self {
+        Self { t, pdf, weights: [w_0, w_1, w_2, w_3], r }
     }
 }
+
+/// Weights and `r`.
+type Optional<'a> = [Option<&'a mut [f32]>; MOST_CHANNELS + 1];
 
 /// Those of [`Samples`].
 pub(crate) struct OfSamples;
@@ -64,40 +97,22 @@ impl Outputs for OfSamples {
     type At<'a> = Samples<'a>;
 
     fn split_at<'a>(out: Self::At<'a>, k: usize) -> (Self::At<'a>, Self::At<'a>) {
-        let (t, t_rest) = out.t.split_at_mut(k);
-        let (pdf, pdf_rest) = out.pdf.split_at_mut(k);
-        let (weight, weight_rest) = out.weight.map(|column| column.split_at_mut(k)).unzip();
-        let (r, r_rest) = out.r.map(|column| column.split_at_mut(k)).unzip();
-        (Samples { t, pdf, weight, r }, Samples { t: t_rest, pdf: pdf_rest, weight: weight_rest, r: r_rest })
+        let ([t, pdf], optional) = out.columns();
+        let ((t, t_rest), (pdf, pdf_rest)) = (t.split_at_mut(k), pdf.split_at_mut(k));
+        let (optional, optional_rest) = Columns::split_at(optional, k);
+        (Samples::of([t, pdf], optional), Samples::of([t_rest, pdf_rest], optional_rest))
     }
 
     fn part<'b>(out: &'b mut Samples<'_>, range: Range<usize>) -> Samples<'b> {
-        Samples {
-            t: &mut out.t[range.clone()],
-            pdf: &mut out.pdf[range.clone()],
-            weight: out.weight.as_mut().map(|column| &mut column[range.clone()]),
-            r: out.r.as_mut().map(|column| &mut column[range]),
-        }
+        let ([t, pdf], optional) = out.reborrow().columns();
+        let optional = optional.map(|column| column.map(|column| &mut column[range.clone()]));
+        Samples::of([&mut t[range.clone()], &mut pdf[range]], optional)
     }
 
     fn by_pads<R>(out: Samples<'_>, write: impl FnOnce(Samples<'_>) -> R) -> R {
-        let Samples { t, pdf, weight, r } = out;
+        let ([t, pdf], optional) = out.columns();
         Column::by_pads(t, |t| {
-            Column::by_pads(pdf, |pdf| {
-                let (mut weight_pad, mut r_pad): (Pad, Pad) = ([0.0; MOST_LANES], [0.0; MOST_LANES]);
-                let result = write(Samples {
-                    t,
-                    pdf,
-                    weight: weight.as_ref().map(|_| &mut weight_pad[..]),
-                    r: r.as_ref().map(|_| &mut r_pad[..]),
-                });
-                for (column, pad) in [(weight, weight_pad), (r, r_pad)] {
-                    if let Some(column) = column {
-                        column.copy_from_slice(&pad[..column.len()]);
-                    }
-                }
-                result
-            })
+            Column::by_pads(pdf, |pdf| Columns::by_pads(optional, |optional| write(Samples::of([t, pdf], optional))))
         })
     }
 }
@@ -107,19 +122,11 @@ impl OfRuns for OfSamples {
         if let Some(range) = run.together() {
             return write(Self::part(out, range));
         }
-        let Samples { t, pdf, weight, r } = out;
+        let ([t, pdf], mut optional) = out.reborrow().columns();
         run.scatter(t, |t| {
             run.scatter(pdf, |pdf| {
-                optional(run, weight, |weight| optional(run, r, |r| write(Samples { t, pdf, weight, r })))
+                Columns::of_run(&mut optional, run, |optional| write(Samples::of([t, pdf], optional)))
             })
         })
-    }
-}
-
-/// The values of a run of a column, if there is one.
-fn optional<R>(run: Run<'_>, column: &mut Option<&mut [f32]>, write: impl FnOnce(Option<&mut [f32]>) -> R) -> R {
-    match column {
-        Some(column) => run.scatter(column, |column| write(Some(column))),
-        None => write(None),
     }
 }

@@ -12,12 +12,6 @@ pub(crate) trait Entry<const K: usize>: Copy {
     const TABLE: &'static str;
     const INDEX: &'static str;
 
-    /// What of this kind has no kernel.
-    const UNSUPPORTED: &'static str;
-
-    /// Whether the kernels know such a thing.
-    fn is_supported(&self) -> bool;
-
     /// Its numbers, in the order of the columns.
     fn row(&self) -> [f32; K];
 }
@@ -37,16 +31,13 @@ impl<'a, T: Entry<K>, const K: usize> Source<'a, T, K> {
     /// `Ok` if there is one for each of so many rays.
     pub(super) fn check(&self, rays: usize) -> Result<(), Error> {
         match *self {
-            Self::One(one) => known([one].iter()),
+            Self::One(_) => Ok(()),
             Self::Each(columns) => {
                 let mut columns = T::COLUMNS.into_iter().zip(columns);
                 columns.try_for_each(|(field, column)| Error::unless_length(field, column.len(), rays))
             }
             Self::Table { table: [], .. } => Err(Error::Empty { field: T::TABLE }),
-            Self::Table { table, index } => {
-                known(table.iter())?;
-                Error::unless_length(T::INDEX, index.len(), rays)
-            }
+            Self::Table { index, .. } => Error::unless_length(T::INDEX, index.len(), rays),
         }
     }
 
@@ -77,15 +68,6 @@ impl<'a, T: Entry<K>, const K: usize> Source<'a, T, K> {
     }
 }
 
-/// `Ok` if the kernels know all of them.
-fn known<'a, T: Entry<K> + 'a, const K: usize>(mut entries: impl Iterator<Item = &'a T>) -> Result<(), Error> {
-    if entries.all(T::is_supported) {
-        Ok(())
-    } else {
-        Err(Error::Unavailable { field: T::UNSUPPORTED, strategy: None })
-    }
-}
-
 /// Room for the columns of some rays.
 pub(crate) struct Gathered<const K: usize>(Option<[[f32; MOST_RAYS]; K]>);
 
@@ -97,17 +79,22 @@ impl<const K: usize> Gathered<K> {
 
     /// The entries of `table` that `index` names, as columns; NaN where there is none.
     fn gather<T: Entry<K>>(&mut self, table: &[T], index: &[u32]) -> [&[f32]; K] {
+        self.fill(index.len(), |ray| table.get(index[ray] as usize).map_or([f32::NAN; K], T::row))
+    }
+
+    /// A row for each of so many rays, as columns.
+    #[inline]
+    pub(super) fn fill(&mut self, rays: usize, row: impl Fn(usize) -> [f32; K]) -> [&[f32]; K] {
         let columns = match &mut self.0 {
             Some(columns) => columns,
             none => none.insert([[0.0; MOST_RAYS]; K]),
         };
-        for (ray, &index) in index.iter().enumerate() {
-            let row = table.get(index as usize).map_or([f32::NAN; K], T::row);
-            for (column, value) in columns.iter_mut().zip(row) {
+        for ray in 0..rays {
+            for (column, value) in columns.iter_mut().zip(row(ray)) {
                 column[ray] = value;
             }
         }
-        columns.each_ref().map(|column| &column[..index.len()])
+        columns.each_ref().map(|column| &column[..rays])
     }
 }
 
@@ -125,6 +112,14 @@ impl<'r, const K: usize> Rows<'r, K> {
         match *self {
             Self::One(row) => Self::One(row),
             Self::Each(columns) => Self::Each(columns.map(|column| &column[range.clone()])),
+        }
+    }
+
+    /// Some of the numbers.
+    pub(super) fn select<const J: usize>(&self, numbers: [usize; J]) -> Rows<'r, J> {
+        match self {
+            Self::One(row) => Rows::One(numbers.map(|k| row[k])),
+            Self::Each(columns) => Rows::Each(numbers.map(|k| columns[k])),
         }
     }
 

@@ -18,7 +18,7 @@ use crate::geometry::{Geometry, RayLanes};
 use crate::integrand::{Lobe, MediumLanes, transmittance};
 use crate::simd::math::one_minus_exp;
 use crate::simd::{Isa, Lanes, Number};
-use crate::strategy::product::x_and_h_over_it;
+use crate::strategy::product::along_v::{AlongV, At, ConeAlongV, Units, x_and_h_over_it};
 
 /// What `1/Y_c` has of `mu_t`, and `Y_c` of `X_a` and of `h B/A`.
 const OF_MU_T: f32 = 0.09;
@@ -123,11 +123,9 @@ impl<const K: usize> Rule<K> {
         // Lengths in units of the largest: no power of them leaves f32.
         let inv_size = one / h.max(x_a).max(y_c);
         let (h_c, x_c, y_c_c) = (h * inv_size, x_a * inv_size, y_c * inv_size);
-        // m from the end where N is smaller.
-        let rising = c(0.0).le(g.cosine.beta);
-        let m_end = g.cosine.m_least * inv_size;
-        let half_beta = c(0.5) * g.cosine.beta.abs() * I::V::select(rising, w_0 * y_c_c, y_b * inv_size);
-        let h_x = I::V::select(rising, h_x_a, h_x_b);
+        let units = Units { of_v: w_0 * y_c_c, of_to_1: y_b * inv_size, h_x_a, h_x_b };
+        let m_along = AlongV::new(isa, &g.cosine.ramp(isa), g.cosine.m_least * inv_size, &units);
+        let cone = ConeAlongV::new(isa, g, inv_size, one, &units);
 
         let mut sum = c(0.0);
         let mut k = 0;
@@ -142,12 +140,15 @@ impl<const K: usize> Rule<K> {
 
             let p = h_c * s;
             let q = x_c.mul_add(s, y_c_c * w);
-            let way = I::V::select(rising, v, to_1);
-            let m = m_end.mul_add(s * q, half_beta * way * p.mul_add(h_x, q));
+            let at = At { v, to_1, scale: s, p, q };
+            let m = m_along.at(&at);
             let p2 = p * p;
             let s_1 = q.mul_add(q, p2);
             let s_2 = (a2 * q).mul_add(q, b2 * p2);
-            let numerator = I::V::select(g.cosine.has_normal, m, s_1);
+            let mut numerator = I::V::select(g.cosine.has_normal, m, s_1);
+            if let Some(cone) = &cone {
+                numerator = numerator * cone.at(isa, &at, m, s_1);
+            }
             sum = (weight * transmittance).mul_add(numerator / (s_2 * (s_1 * s_2).sqrt()), sum);
             k += 1;
         }

@@ -7,8 +7,8 @@ use crate::scene::{Emitter, Medium, Ray};
 
 /// One ray, one emitter and a medium of one or several channels in f64.
 ///
-/// All channels share the distances. A product density is the mixture, in equal parts, of those of the channels that scatter,
-/// all at the knots of the [mean](Self::mean)'s: proportional to the sum of `f_c/F_c`, with `f_c` the line through what
+/// All channels share the distances. A product density with 5 or 9 knots is the mixture, in equal parts, of those of the channels that
+/// scatter, all at the knots of the [mean](Self::mean)'s: proportional to the sum of `f_c/F_c`, with `f_c` the line through what
 /// channel `c` has at the knots and `F_c` its integral. So no channel's relative variance is above `C (1 + V_c) - 1`, for `C`
 /// channels and `V_c` by the line of its own. If no channel scatters all take part. The density of any other strategy is that
 /// of the mean.
@@ -85,8 +85,10 @@ impl Coloured {
     fn sampled(&self, strategy: Strategy) -> Option<Sampled> {
         let none_scatters = !self.channels.iter().any(Scene::scatters);
         let taking_part = self.channels.iter().filter(|channel| none_scatters || channel.scatters());
-        let mu_t: Vec<f64> = taking_part.map(Scene::mu_t).collect();
-        Sampled::new(&self.mean, strategy, &mu_t)
+        let mixture: Vec<f64> = taking_part.map(Scene::mu_t).collect();
+        let mean = [self.mean.mu_t()];
+        let mixes = matches!(strategy, Strategy::Product5 | Strategy::Product9);
+        Sampled::new(&self.mean, strategy, if mixes { &mixture } else { &mean })
     }
 }
 

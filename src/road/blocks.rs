@@ -7,9 +7,11 @@
 //! 3. weights, the same for all densities.
 
 use crate::Precision;
-use crate::batch::{Counts, EmitterRows, Gathered, Inputs, MOST_RAYS, MediumRows, Run, Turn};
+use crate::batch::{
+    ChannelGroups, ConeRows, Counts, EmitterRows, Gathered, Inputs, MOST_RAYS, MediaPlace, MediaRows, Run, Turn,
+};
 use crate::density::{Density, Kind, SetUp};
-use crate::geometry::{Cosine, Extent, Foot, Geometry, Lit, clip, find_foot, in_f64, pick};
+use crate::geometry::{Cone, Cosine, Extent, Foot, Geometry, Lit, clip, find_foot, in_cone, in_f64, pick};
 use crate::simd::{GROUPS, Isa, Lanes, MOST_LANES, Records, Room, none};
 use core::ops::Range;
 
@@ -31,10 +33,12 @@ pub(super) struct Block<'b, I: Isa> {
     /// Which ones of the chunk they are.
     pub(super) groups: Range<usize>,
     /// Their media.
-    pub(super) media: MediumRows<'b>,
+    pub(super) media: MediaRows<'b>,
     lits: &'b [Lit<I>],
     cosines: &'b [Cosine<I>],
     feet: &'b [Foot<I>],
+    /// Empty where there are no spots.
+    cones: &'b [Cone<I>],
 }
 
 impl<I: Isa> Block<'_, I> {
@@ -43,12 +47,22 @@ impl<I: Isa> Block<'_, I> {
         self.inputs.run(&ONE_TURN[..self.groups.len()], self.groups.start, I::V::N)
     }
 
+    /// The channels of coloured media.
+    #[cfg_attr(optimized, inline(always))]
+    pub(super) fn channels(&self, isa: I) -> Option<ChannelGroups<'_, I>> {
+        match &self.media.channels {
+            Some(channels) => Some(channels.groups(isa)),
+            None => None,
+        }
+    }
+
     /// The geometries, for a pass.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn geometries(&self) -> Geometries<'_, I> {
         // Equal lengths remove bounds checks.
         let count = self.groups.len();
-        Geometries { lits: &self.lits[..count], cosines: &self.cosines[..count], feet: &self.feet[..count] }
+        let (lits, cosines, feet) = (&self.lits[..count], &self.cosines[..count], &self.feet[..count]);
+        Geometries { lits, cosines, feet, cones: self.cones }
     }
 }
 
@@ -57,13 +71,15 @@ pub(super) struct Geometries<'b, I: Isa> {
     lits: &'b [Lit<I>],
     cosines: &'b [Cosine<I>],
     feet: &'b [Foot<I>],
+    cones: &'b [Cone<I>],
 }
 
 impl<I: Isa> Geometries<'_, I> {
     /// That of a record.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn get(&self, record: usize) -> Geometry<'_, I> {
-        Geometry { lit: &self.lits[record], cosine: &self.cosines[record], foot: &self.feet[record] }
+        let (lit, cosine, foot) = (&self.lits[record], &self.cosines[record], &self.feet[record]);
+        Geometry { lit, cosine, foot, cone: self.cones.get(record) }
     }
 }
 
@@ -89,7 +105,7 @@ pub(super) fn for_each_block<I: Isa>(
     mut visit: impl FnMut(&Block<'_, I>),
 ) {
     let (at_once, count) = (groups_at_once::<I>(), inputs.len() / I::V::N);
-    let each = inputs.emitters.0.differs();
+    let each = inputs.emitters.points.differs();
     let mut places = Places::new();
     isa.vectorize::<Foot<I>, _>(
         #[cfg_attr(optimized, inline(always))]
@@ -121,14 +137,19 @@ pub(super) fn for_each_block<I: Isa>(
         (Extent::Cosine, Precision::Exact) if each => in_single::<I, true, true, true, true>,
         (Extent::Cosine, Precision::Exact) => in_single::<I, true, true, true, false>,
     };
-    let (mut emitters, mut media) = (Gathered::new(), Gathered::new());
+    let (mut emitters, mut cones, mut media) = (Gathered::new(), Gathered::new(), MediaPlace::new());
     for start in (0..count).step_by(at_once) {
         let groups = start..count.min(start + at_once);
         let rays = groups.start * I::V::N..groups.end * I::V::N;
-        let emitters = inputs.emitters.0.rows(rays.clone(), &mut emitters);
-        let media = inputs.media.0.rows(rays, &mut media);
+        let emitters = inputs.emitters.points.rows(rays.clone(), &mut emitters);
+        let cones = inputs.emitters.cones.map(|source| source.rows(rays.clone(), &mut cones));
+        let media = inputs.media.rows(rays, &mut media);
         locate(isa, inputs, emitters, groups.clone(), &mut places);
+        if let Some(cones) = cones {
+            in_cones(isa, inputs, emitters, cones, groups.start, &mut places);
+        }
         let (lits, cosines, feet) = (places.lits.written(), places.cosines.written(), places.feet.written());
+        let cones = places.cones.written();
         for part in (0..groups.len()).step_by(wanted.records) {
             let part = part..groups.len().min(part + wanted.records);
             visit(&Block {
@@ -137,7 +158,8 @@ pub(super) fn for_each_block<I: Isa>(
                 media: media.part(part.start * I::V::N..part.end * I::V::N),
                 lits: &lits[part.clone()],
                 cosines: &cosines[part.clone()],
-                feet: &feet[part],
+                feet: &feet[part.clone()],
+                cones: cones.get(part).unwrap_or_default(),
             });
         }
     }
@@ -150,12 +172,14 @@ struct Places<I: Isa> {
     excesses: Records<I::V>,
     cosines: Records<Cosine<I>>,
     feet: Records<Foot<I>>,
+    cones: Records<Cone<I>>,
 }
 
 impl<I: Isa> Places<I> {
     #[cfg_attr(optimized, inline(always))]
     fn new() -> Self {
-        Self { lits: Records::new(), excesses: Records::new(), cosines: Records::new(), feet: Records::new() }
+        let (lits, excesses, cosines) = (Records::new(), Records::new(), Records::new());
+        Self { lits, excesses, cosines, feet: Records::new(), cones: Records::new() }
     }
 }
 
@@ -340,7 +364,7 @@ fn rescue<I: Isa, const FOOT: bool, const COSINE: bool>(
                         emitter = emitters.emitters(isa, record);
                     }
                     let exact = in_f64(isa, &rays.lanes(isa, group), &emitter);
-                    let (of_lit, of_cosine, of_foot) = pick(hard, &exact, Geometry { lit, cosine, foot });
+                    let (of_lit, of_cosine, of_foot) = pick(hard, &exact, Geometry { lit, cosine, foot, cone: None });
                     *lit = of_lit;
                     if COSINE {
                         *cosine = of_cosine;
@@ -394,6 +418,33 @@ fn in_double<I: Isa, const FOOT: bool, const COSINE: bool>(
     );
 }
 
+/// The geometry of spots, in f64, in place of that of other emitters.
+fn in_cones<I: Isa>(
+    isa: I,
+    inputs: &Inputs<'_>,
+    emitters: EmitterRows<'_>,
+    cones: ConeRows<'_>,
+    start: usize,
+    places: &mut Places<I>,
+) {
+    isa.vectorize::<Cone<I>, _>(
+        #[cfg_attr(optimized, inline(always))]
+        || {
+            let rays = inputs.ray_groups::<I>();
+            let (emitters, cones) = (emitters.groups(isa), cones.groups(isa));
+            let (lits, cosines, feet) = (places.lits.written(), places.cosines.written(), places.feet.written());
+            let mut located = places.cones.start();
+            for (record, ((lit, cosine), foot)) in lits.iter_mut().zip(cosines).zip(feet).enumerate() {
+                let ray = rays.lanes(isa, start + record);
+                let (exact, cone) = in_cone(isa, &ray, &emitters.spots(isa, &cones, record));
+                (*lit, *cosine, *foot) = pick(cone.is_spot, &exact, Geometry { lit, cosine, foot, cone: None });
+                located.push(cone);
+            }
+            located.done();
+        },
+    );
+}
+
 /// Place for the set-ups of a block.
 pub(super) type SetUps<I, D> = <<D as Kind>::On<I> as Density<I>>::SetUps;
 
@@ -406,8 +457,9 @@ pub(super) fn set_up<'r, I: Isa, Home, D: Density<I>>(
     isa.vectorize::<Home, _>(
         #[cfg_attr(optimized, inline(always))]
         || {
-            let (rays, media) = (block.inputs.ray_groups::<I>(), block.media.groups(isa));
+            let (rays, media) = (block.inputs.ray_groups::<I>(), block.media.means.groups(isa));
             let mut medium = media.media(isa, 0);
+            let channels = block.channels(isa);
             let geometries = block.geometries();
             records.fill(
                 block.groups.len(),
@@ -416,7 +468,11 @@ pub(super) fn set_up<'r, I: Isa, Home, D: Density<I>>(
                     let group = block.groups.start + record;
                     media.renew(isa, record, &mut medium);
                     let geometry = geometries.get(record);
-                    SetUp::new(isa, &rays.lanes(isa, group), geometry, &medium)
+                    let of_group = match &channels {
+                        Some(channels) => Some(channels.lanes(isa, record)),
+                        None => None,
+                    };
+                    SetUp::new(isa, &rays.lanes(isa, group), geometry, &medium, of_group.as_ref())
                 },
             )
         },

@@ -164,6 +164,7 @@ impl<const K: usize> OfBlock<'_, '_, K> {
                     for_each_radiance::<I, K>(
                         isa,
                         block,
+                        block.media.means,
                         #[cfg_attr(optimized, inline(always))]
                         |record, Integrated { radiance, valid, .. }| {
                             let [weight] = weights.lanes(isa, record);

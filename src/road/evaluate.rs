@@ -1,20 +1,21 @@
 //! The integrand at given distances, whatever the density.
 
 use super::blocks::{Block, Tally, Wanted, for_each_block, for_each_run};
-use super::{Method, Task};
+use super::{Method, Out, Task};
 use crate::Precision;
-use crate::batch::{Column, Counts, Inputs, OfRuns, Turn};
+use crate::batch::{Columns, Counts, Inputs, OfRuns, Turn};
 use crate::geometry::Extent;
 use crate::integrand::{MediumLanes, integrand_r2};
+use crate::scene::MOST_CHANNELS;
 use crate::simd::{GROUPS, Isa, Kernel, Lanes, Machine, none};
 
 pub(crate) struct Evaluate;
 
 impl Task for Evaluate {
     type Method = Method;
-    type Out = Column;
+    type Out = Columns<MOST_CHANNELS>;
 
-    fn run(machine: impl Machine, method: Method, inputs: &Inputs<'_>, out: &mut [f32]) -> Counts {
+    fn run(machine: impl Machine, method: Method, inputs: &Inputs<'_>, out: Out<'_, Self>) -> Counts {
         machine.run(OnGroups { precision: method.precision, inputs, out })
     }
 }
@@ -23,7 +24,7 @@ impl Task for Evaluate {
 struct OnGroups<'a> {
     precision: Precision,
     inputs: &'a Inputs<'a>,
-    out: &'a mut [f32],
+    out: Out<'a, Evaluate>,
 }
 
 impl Kernel for OnGroups<'_> {
@@ -35,32 +36,44 @@ impl Kernel for OnGroups<'_> {
         for_each_block(isa, inputs, Wanted { precision, extent: Extent::Cosine, records: GROUPS }, |block| {
             for_each_run(block, |run| {
                 let t = run.values(inputs.given, &mut pad);
-                Column::of_run(&mut out, run, |out| integrands(isa, block, run.turns, t, out, &mut tally));
+                Columns::of_run(&mut out, run, |out| integrands(isa, block, run.turns, t, out, &mut tally));
             });
         });
         tally.counts(isa, inputs)
     }
 }
 
-/// The integrands of some turns at the distances `t`.
-fn integrands<I: Isa>(isa: I, block: &Block<'_, I>, turns: &[Turn], t: &[f32], out: &mut [f32], tally: &mut Tally<I>) {
+/// The integrands of some turns at the distances `t`, of every channel.
+fn integrands<I: Isa>(
+    isa: I,
+    block: &Block<'_, I>,
+    turns: &[Turn],
+    t: &[f32],
+    mut out: Out<'_, Evaluate>,
+    tally: &mut Tally<I>,
+) {
     isa.vectorize::<MediumLanes<I>, _>(
         #[cfg_attr(optimized, inline(always))]
         || {
-            let (rays, media) = (block.inputs.ray_groups::<I>(), block.media.groups(isa));
-            let mut medium = media.media(isa, 0);
-            let geometries = block.geometries();
-            for ((turn, t), out) in turns.iter().zip(I::groups(t)).zip(I::groups_mut(out)) {
-                let group = block.groups.start + turn.record;
-                media.renew(isa, turn.record, &mut medium);
-                let (ray, geometry) = (rays.lanes(isa, group), geometries.get(turn.record));
-                let t = isa.load(t);
-                let (valid, faced) = (geometry.lit.valid & medium.valid & t.eq(t), geometry.faced(isa));
-                let inside = valid & faced & ray.t_min.le(t) & t.le(ray.end(isa));
-                let point = geometry.point_at_distance(isa, t);
-                let f = integrand_r2(isa, &ray, geometry, &medium, &point) / (point.r * point.r);
-                isa.store(I::V::only(inside, f.min(isa.splat(f32::MAX))), out);
-                tally.add(valid, valid & faced, none(isa));
+            let (rays, geometries) = (block.inputs.ray_groups::<I>(), block.geometries());
+            let columns = out.iter().flatten().count();
+            for (column, out) in out.iter_mut().flatten().enumerate() {
+                let media = block.media.of_output(column, columns).groups(isa);
+                let mut medium = media.media(isa, 0);
+                for ((turn, t), out) in turns.iter().zip(I::groups(t)).zip(I::groups_mut(out)) {
+                    let group = block.groups.start + turn.record;
+                    media.renew(isa, turn.record, &mut medium);
+                    let (ray, geometry) = (rays.lanes(isa, group), geometries.get(turn.record));
+                    let t = isa.load(t);
+                    let (valid, faced) = (geometry.lit.valid & medium.valid & t.eq(t), geometry.faced(isa));
+                    let inside = valid & faced & ray.t_min.le(t) & t.le(ray.end(isa));
+                    let point = geometry.point_at_distance(isa, t);
+                    let f = integrand_r2(isa, &ray, geometry, &medium, &point) / (point.r * point.r);
+                    isa.store(I::V::only(inside, f.min(isa.splat(f32::MAX))), out);
+                    if column == 0 {
+                        tally.add(valid, valid & faced, none(isa));
+                    }
+                }
             }
         },
     );

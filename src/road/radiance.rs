@@ -1,10 +1,11 @@
 //! The integral of the integrand along each ray.
 
-use super::Task;
 use super::blocks::{Block, Tally, Wanted, for_each_block};
-use crate::batch::{Column, Counts, Inputs};
+use super::{Out, Task};
+use crate::batch::{Columns, Counts, Inputs, MediumRows};
 use crate::geometry::Extent;
 use crate::integral::rule::Rule;
+use crate::scene::MOST_CHANNELS;
 use crate::simd::{GROUPS, Isa, Kernel, Lanes, Machine, none};
 use crate::{Nodes, Precision};
 
@@ -19,9 +20,9 @@ pub(crate) struct Radiance;
 
 impl Task for Radiance {
     type Method = Quadrature;
-    type Out = Column;
+    type Out = Columns<MOST_CHANNELS>;
 
-    fn run(machine: impl Machine, method: Quadrature, inputs: &Inputs<'_>, out: &mut [f32]) -> Counts {
+    fn run(machine: impl Machine, method: Quadrature, inputs: &Inputs<'_>, out: Out<'_, Self>) -> Counts {
         let Quadrature { nodes, precision } = method;
         match nodes {
             Nodes::Four => machine.run(OnGroups::<4> { precision, inputs, out }),
@@ -36,29 +37,35 @@ impl Task for Radiance {
 struct OnGroups<'a, const K: usize> {
     precision: Precision,
     inputs: &'a Inputs<'a>,
-    out: &'a mut [f32],
+    out: Out<'a, Radiance>,
 }
 
 impl<const K: usize> Kernel for OnGroups<'_, K> {
     type Output = Counts;
 
     fn run<I: Isa>(self, isa: I) -> Counts {
-        let Self { precision, inputs, out } = self;
+        let Self { precision, inputs, mut out } = self;
         let mut tally = Tally::new(isa, inputs);
         for_each_block(isa, inputs, of_integral(precision), |block| {
             isa.vectorize::<Rule<K>, _>(
                 #[cfg_attr(optimized, inline(always))]
                 || {
-                    let out = &mut I::groups_mut(out)[block.groups.clone()];
-                    for_each_radiance::<I, K>(
-                        isa,
-                        block,
-                        #[cfg_attr(optimized, inline(always))]
-                        |record, Integrated { radiance, valid, lit }| {
-                            isa.store(radiance, &mut out[record]);
-                            tally.add(valid, lit, none(isa));
-                        },
-                    );
+                    let columns = out.iter().flatten().count();
+                    for (column, out) in out.iter_mut().flatten().enumerate() {
+                        let out = &mut I::groups_mut(out)[block.groups.clone()];
+                        for_each_radiance::<I, K>(
+                            isa,
+                            block,
+                            block.media.of_output(column, columns),
+                            #[cfg_attr(optimized, inline(always))]
+                            |record, Integrated { radiance, valid, lit }| {
+                                isa.store(radiance, &mut out[record]);
+                                if column == 0 {
+                                    tally.add(valid, lit, none(isa));
+                                }
+                            },
+                        );
+                    }
                 },
             );
         });
@@ -80,14 +87,15 @@ pub(super) struct Integrated<I: Isa> {
     pub(super) lit: I::Mask,
 }
 
-/// The integrals of a block, one lane group after the other.
+/// The integrals of a block in some media, one lane group after the other.
 #[cfg_attr(optimized, inline(always))]
 pub(super) fn for_each_radiance<I: Isa, const K: usize>(
     isa: I,
     block: &Block<'_, I>,
+    media: MediumRows<'_>,
     mut visit: impl FnMut(usize, Integrated<I>),
 ) {
-    let (rays, media) = (block.inputs.ray_groups::<I>(), block.media.groups(isa));
+    let (rays, media) = (block.inputs.ray_groups::<I>(), media.groups(isa));
     let mut medium = media.media(isa, 0);
     let geometries = block.geometries();
     for record in 0..block.groups.len() {

@@ -17,7 +17,7 @@ impl Task for Sample {
 
     fn run(machine: impl Machine, method: Method, inputs: &Inputs<'_>, out: Samples<'_>) -> Counts {
         // Apart, as points are handed on for weights and `r` alone.
-        if out.weight.is_some() || out.r.is_some() {
+        if out.channels() > 0 || out.r.is_some() {
             by_strategy::<Drawing<true>>(machine, method, inputs, out)
         } else {
             by_strategy::<Drawing<false>>(machine, method, inputs, out)
@@ -42,13 +42,15 @@ impl<const WITH_WEIGHT_OR_R: bool> OfDensity for Drawing<WITH_WEIGHT_OR_R> {
         let mut tally = Tally::new(isa, inputs);
         let (mut set_ups, mut places, mut points) = (SetUps::<I, D>::new(), Records::new(), Records::new());
         let mut pad = None;
+        // Set-ups of spots and colours are compiled once, in a pass of their own.
+        let once = inputs.per_ray == 1 && inputs.are_plain();
         let wanted = Wanted {
             precision,
             extent: if WITH_WEIGHT_OR_R { Extent::Cosine } else { D::On::<I>::EXTENT },
-            records: if inputs.per_ray == 1 { GROUPS } else { SetUps::<I, D>::SIZE },
+            records: if once { GROUPS } else { SetUps::<I, D>::SIZE },
         };
         for_each_block(isa, inputs, wanted, |block| {
-            if inputs.per_ray == 1 {
+            if once {
                 let run = block.one_turn();
                 let u = run.values(inputs.given, &mut pad);
                 return OfSamples::of_run(&mut out, run, |mut out| {
@@ -76,7 +78,8 @@ impl<const WITH_WEIGHT_OR_R: bool> OfDensity for Drawing<WITH_WEIGHT_OR_R> {
     }
 }
 
-/// One variate for each ray: set-up, inversion and output in one pass, as nothing of a set-up is used again.
+/// One variate for each ray, without spots and colours: set-up, inversion and output in one pass, as nothing of a set-up is used
+/// again.
 struct Once<'p, I: Isa> {
     block: &'p Block<'p, I>,
     u: &'p [f32],
@@ -111,7 +114,7 @@ impl<I: Isa> Once<'_, I> {
     #[cfg_attr(optimized, inline(always))]
     fn stations(&self, isa: I) -> Stations<'_, I> {
         let Block { inputs, groups, .. } = self.block;
-        let media = self.block.media.groups(isa);
+        let media = self.block.media.means.groups(isa);
         Stations {
             first: groups.start,
             rays: inputs.ray_groups(),
@@ -146,7 +149,8 @@ impl<I: Isa> Stations<'_, I> {
         let (group, geometry) = (self.first + record, self.geometries.get(record));
         self.media.renew(isa, record, &mut self.medium);
         let ray = self.rays.lanes(isa, group);
-        let set_up = SetUp::<I, D::On<I>>::new(isa, &ray, geometry, &self.medium);
+        let geometry = Geometry { cone: None, ..geometry };
+        let set_up = SetUp::<I, D::On<I>>::new(isa, &ray, geometry, &self.medium, None);
         let placed = Placed::new(isa, geometry, &set_up, &self.u[record]);
         point_one::<I, D>(isa, geometry, &set_up, &placed, t, pdf, tally)
     }
@@ -283,19 +287,21 @@ fn weigh<I: Isa>(isa: I, block: &Block<'_, I>, turns: &[Turn], points: &[Sampled
                     isa.store(I::V::only(*sampled, point.r), r);
                 }
             }
-            let Some(weight) = &mut out.weight else { return };
-            let (rays, media) = (block.inputs.ray_groups::<I>(), block.media.groups(isa));
-            let mut medium = media.media(isa, 0);
-            let geometries = block.geometries();
-            for ((turn, Sampled { point, times_r2, sampled }), weight) in
-                turns.iter().zip(points).zip(I::groups_mut(weight))
-            {
-                let group = block.groups.start + turn.record;
-                media.renew(isa, turn.record, &mut medium);
-                let (ray, geometry) = (rays.lanes(isa, group), geometries.get(turn.record));
-                let f = integrand_r2(isa, &ray, geometry, &medium, point);
-                let value = (f / *times_r2).min(isa.splat(f32::MAX));
-                isa.store(I::V::only(*sampled & isa.splat(0.0).lt(*times_r2), value), weight);
+            let (rays, geometries) = (block.inputs.ray_groups::<I>(), block.geometries());
+            let columns = out.channels();
+            for (column, weight) in out.weights.iter_mut().flatten().enumerate() {
+                let media = block.media.of_output(column, columns).groups(isa);
+                let mut medium = media.media(isa, 0);
+                for ((turn, Sampled { point, times_r2, sampled }), weight) in
+                    turns.iter().zip(points).zip(I::groups_mut(weight))
+                {
+                    let group = block.groups.start + turn.record;
+                    media.renew(isa, turn.record, &mut medium);
+                    let (ray, geometry) = (rays.lanes(isa, group), geometries.get(turn.record));
+                    let f = integrand_r2(isa, &ray, geometry, &medium, point);
+                    let value = (f / *times_r2).min(isa.splat(f32::MAX));
+                    isa.store(I::V::only(*sampled & isa.splat(0.0).lt(*times_r2), value), weight);
+                }
             }
         },
     );

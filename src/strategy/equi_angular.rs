@@ -2,7 +2,7 @@
 
 use crate::density::{self, Density, Drawn, Pdf, SetUp};
 use crate::geometry::{Angle, BIAS, Extent, Geometry, Point, RayLanes};
-use crate::integrand::MediumLanes;
+use crate::integrand::{ChannelLanes, MediumLanes};
 use crate::simd::math::{angle_of, tan};
 use crate::simd::{Isa, Lanes, Records, none};
 
@@ -29,7 +29,13 @@ impl<I: Isa> Density<I> for EquiAngular<I> {
     type SetUps = Records<SetUp<I, Self>>;
 
     #[cfg_attr(optimized, inline(always))]
-    fn new(isa: I, _: &RayLanes<I>, geometry: Geometry<'_, I>, _: &MediumLanes<I>) -> (Self, I::Mask) {
+    fn new(
+        isa: I,
+        _: &RayLanes<I>,
+        geometry: Geometry<'_, I>,
+        _: &MediumLanes<I>,
+        _: Option<&ChannelLanes<I>>,
+    ) -> (Self, I::Mask) {
         let half = isa.splat(0.5);
         let subtended = geometry.subtended(isa);
         let turn = I::V::select(subtended.lt(isa.splat(WIDEST)), half + geometry.bias_to_a(isa), half);

@@ -5,7 +5,7 @@
 
 use crate::density::{self, Density, Drawn, Pdf, SetUp};
 use crate::geometry::{Angle, Extent, Geometry, Point, RayLanes};
-use crate::integrand::MediumLanes;
+use crate::integrand::{ChannelLanes, MediumLanes};
 use crate::simd::math::{angle_of, tan};
 use crate::simd::{Isa, Lanes, Number, Records, none};
 
@@ -60,7 +60,13 @@ impl<I: Isa> Density<I> for PointNormal<I> {
     type SetUps = Records<SetUp<I, Self>>;
 
     #[cfg_attr(optimized, inline(always))]
-    fn new(isa: I, _: &RayLanes<I>, geometry: Geometry<'_, I>, _: &MediumLanes<I>) -> (Self, I::Mask) {
+    fn new(
+        isa: I,
+        _: &RayLanes<I>,
+        geometry: Geometry<'_, I>,
+        _: &MediumLanes<I>,
+        _: Option<&ChannelLanes<I>>,
+    ) -> (Self, I::Mask) {
         let g = geometry;
         let ends = g.ends(isa);
         let ([n_a, n_b], [s_a, s_b]) = (ends.n, g.antiderivatives(&ends));

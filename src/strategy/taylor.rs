@@ -14,7 +14,7 @@ use super::point_normal::{NEAREST, mass_of_cosine, tan_half_at_mass};
 use crate::density::{Density, Drawn, Pdf, SetUp};
 use crate::expansion::{Expanded, ORDER};
 use crate::geometry::{Angle, Extent, Geometry, Point, RayLanes};
-use crate::integrand::MediumLanes;
+use crate::integrand::{ChannelLanes, MediumLanes};
 use crate::inversion::{At, solve};
 use crate::simd::math::{SIN, angle_of, horner, horner_lanes, sin_cos, tan};
 use crate::simd::{Double, Isa, Lanes, Number, Records};
@@ -84,7 +84,13 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
     type SetUps = Records<SetUp<I, Self>, 2>;
 
     #[cfg_attr(optimized, inline(always))]
-    fn new(isa: I, _: &RayLanes<I>, geometry: Geometry<'_, I>, medium: &MediumLanes<I>) -> (Self, I::Mask) {
+    fn new(
+        isa: I,
+        _: &RayLanes<I>,
+        geometry: Geometry<'_, I>,
+        medium: &MediumLanes<I>,
+        _: Option<&ChannelLanes<I>>,
+    ) -> (Self, I::Mask) {
         let c = |x| isa.splat(x);
         let g = geometry;
         let Expanded { p, theta_c, p_c, mirrored } = E::expand(isa, g, medium);

@@ -2,7 +2,7 @@
 
 use crate::density::{self, Density, Drawn, Pdf, SetUp};
 use crate::geometry::{Extent, Geometry, Point, RayLanes};
-use crate::integrand::MediumLanes;
+use crate::integrand::{ChannelLanes, MediumLanes};
 use crate::simd::math::{exp, neg_ln_1m, one_minus_exp};
 use crate::simd::{Isa, Lanes, Number, Records, none};
 
@@ -42,7 +42,13 @@ impl<I: Isa> Density<I> for Transmittance<I> {
 
     /// Asks the emitter only whether it faces the ray, not how much of it.
     #[cfg_attr(optimized, inline(always))]
-    fn new(isa: I, ray: &RayLanes<I>, geometry: Geometry<'_, I>, medium: &MediumLanes<I>) -> (Self, I::Mask) {
+    fn new(
+        isa: I,
+        ray: &RayLanes<I>,
+        geometry: Geometry<'_, I>,
+        medium: &MediumLanes<I>,
+        _: Option<&ChannelLanes<I>>,
+    ) -> (Self, I::Mask) {
         let (mu_t, t_min, t_max) = (medium.mu_t, ray.t_min, ray.end(isa));
         let length = t_max - t_min;
         let depth = mu_t * length;

@@ -2,7 +2,8 @@
 
 use crate::families::{Case, Columns, Family};
 use airlight::oracle::Scene;
-use airlight::{Sampler, Samples, Strategy};
+use airlight::{Emitter, Ray, Sampler, Samples, Strategy};
+use glam::Vec3;
 use rayon::prelude::*;
 use std::f64::consts::FRAC_PI_2;
 
@@ -22,6 +23,10 @@ const OFF_THE_MASS: f64 = 1e-12;
 const GEOMETRY: f64 = 8.0 * f64::EPSILON;
 /// The least `h`, of the distance to the emitter, that f64 geometry leaves all digits of f32.
 const NEAREST: f64 = 1e-7;
+/// The `h` of an emitter that is the ray's origin, rounded to f32: the kernels have 5e-8 more \[m\].
+const LEAST_H: f64 = 1.000_001e-18;
+/// The least falloff of a spot that f32 can tell from none.
+const LEAST_FALLOFF: f64 = 1e-25;
 /// The change of the CDF by half an ulp of `t` up to which `t` resolves it.
 const RESOLVED: f64 = 1.0 / (1 << 18) as f64;
 /// What is left of `u` at either end.
@@ -257,10 +262,15 @@ impl Row {
     fn new(strategy: Strategy, case: &Case, outcome: &Outcome, weigh: bool) -> Self {
         let Outcome { t, pdf, weight, r, pdf_at_t, cdf_at_t, integrand } = *outcome;
         let all = [t, pdf, weight, r, pdf_at_t, cdf_at_t, integrand];
-        let scene = case.scene().ok().filter(|_| (0.0..=1.0).contains(&case.u));
+        let parts = case.parts().ok().filter(|_| (0.0..=1.0).contains(&case.u));
+        let scene = parts.as_ref().map(|(ray, emitter, medium)| Scene::new(ray, emitter, medium));
         let lit = scene.as_ref().and_then(Scene::lit);
         let sampled = pdf > 0.0;
-        let judged = sampled == lit.is_some() || scene.as_ref().is_some_and(beyond_f32) || case.is_extreme();
+        let grazes = match (&scene, &parts) {
+            (Some(scene), Some((ray, emitter, _))) => grazes_a_cone(scene, ray, emitter),
+            _ => false,
+        };
+        let judged = sampled == lit.is_some() || scene.as_ref().is_some_and(beyond_f32) || grazes || case.is_extreme();
         let mut row = Self {
             sampled,
             nonfinite: all.iter().any(|x| !x.is_finite()),
@@ -268,16 +278,26 @@ impl Row {
             misjudged: (!judged).then(|| scene.as_ref().map_or(1.0, relative_light)),
             errors: [None; KINDS],
         };
-        let (Some(scene), Some(_), true, false) = (scene, lit, sampled, case.is_extreme()) else { return row };
+        let (Some(scene), Some((ray, emitter, _)), Some(_), true, false) =
+            (scene, parts, lit, sampled, case.is_extreme())
+        else {
+            return row;
+        };
+        // A product density sees no light to follow, and does without it.
+        if most_falloff(&scene, strategy) < LEAST_FALLOFF {
+            return row;
+        }
         let (t_min, t_max) = scene.interval();
         row.out_of_range |= !(t_min..=t_max).contains(&f64::from(t));
         let u = f64::from(case.u);
         let cdf = (scene.cdf(strategy, t.into()) - u).abs();
-        let rounding = Rounding::new(&scene, t);
+        let rounding = Rounding::new(&scene, sharpest_edge(&scene, &ray, &emitter), t);
         let cdfs = rounding.ends.map(|t| scene.cdf(strategy, t));
         let moved = [f64::from(t) - rounding.moved, f64::from(t) + rounding.moved];
-        let integrand = integrand_error(&scene, t.into(), integrand.into());
-        let near = scene.h() < NEAREST * rounding.scale;
+        // A plane where N = 0 is known much better: what is close to it counts little.
+        let edge = if emitter.cone().is_some() { rounding.moved } else { 0.0 };
+        let integrand = integrand_error(&scene, t.into(), edge, integrand.into());
+        let near = scene.h() < NEAREST * rounding.scale || scene.h() <= LEAST_H;
         row.errors = [
             Some(cdf),
             (cdfs[1] - cdfs[0] <= 2.0 * RESOLVED).then_some(cdf),
@@ -286,7 +306,7 @@ impl Row {
             Some(beyond(moved.map(|t| scene.cdf(strategy, t)), cdf_at_t.into())),
             offset_error(&scene, strategy, rounding.ends, u),
             (weigh && !near).then(|| offset_floor(&scene, strategy, rounding.moved, u)).flatten(),
-            pdf_error(&scene, strategy, t.into(), pdf_at_t.into()),
+            pdf_error(&scene, strategy, t.into(), edge, pdf_at_t.into()),
             (weigh && !near).then(|| pdf_floor(&scene, strategy, t.into())).flatten(),
             Some(r_error(&scene, strategy, &rounding, u, r.into())),
             integrand.filter(|_| !near),
@@ -308,14 +328,41 @@ struct Rounding {
 }
 
 impl Rounding {
-    fn new(scene: &Scene, t: f32) -> Self {
+    /// `sine` is that of the least angle at which the ray meets an end of the light.
+    fn new(scene: &Scene, sine: f64, t: f32) -> Self {
         let scale = f64::from(t).max(scene.r(t.into())).max(scene.t_h().abs());
-        // Where N = 0 the ray meets the emitter's plane, at an angle with the sine beta.
-        let clipped = scene.lit().is_some_and(|lit| lit != scene.interval());
-        let moved = GEOMETRY * scale / if clipped { scene.beta().abs() } else { 1.0 };
+        let moved = GEOMETRY * scale / sine;
         let [low, high] = [t.next_down(), t.next_up()].map(|next| 0.5 * (f64::from(t) + f64::from(next)));
         Self { ends: [low - moved, high + moved], moved, scale }
     }
+}
+
+/// The sine of the least angle at which the ray enters or leaves the light, 1 if it does neither: with the plane where `N = 0`
+/// it is `beta`, with the cone of a spot `(c t'/r - beta)/sin phi`.
+fn sharpest_edge(scene: &Scene, ray: &Ray, emitter: &Emitter) -> f64 {
+    let (interval, Some(lit)) = (scene.interval(), scene.lit()) else { return 1.0 };
+    let Some(cone) = emitter.cone() else { return if lit == interval { 1.0 } else { scene.beta().abs() } };
+    let ([_, beta], c) = (axis_cosines(scene, ray, emitter, cone.axis()), f64::from(cone.cos_outer()));
+    let sine = |t: f64| (c * ((t - scene.t_h()) / scene.r(t)) - beta).abs() / (1.0 - c * c).max(1e-18).sqrt();
+    let at = |end: f64, clipped: bool| if clipped { sine(end).min(1.0) } else { 1.0 };
+    at(lit.0, lit.0 > interval.0).min(at(lit.1, lit.1 < interval.1))
+}
+
+/// Whether the ray runs so exactly across the axis of a spot that no direction of it has a cosine which f32 can square, or
+/// what is lit of it is a rounding in f64.
+fn grazes_a_cone(scene: &Scene, ray: &Ray, emitter: &Emitter) -> bool {
+    emitter.cone().is_some_and(|cone| {
+        let across = axis_cosines(scene, ray, emitter, cone.axis()).into_iter().all(|x| x.abs() < 1e-18);
+        let sine = sharpest_edge(scene, ray, emitter);
+        across || scene.lit().is_some_and(|(a, b)| b - a <= GEOMETRY * a.max(scene.r(a)).max(scene.t_h().abs()) / sine)
+    })
+}
+
+/// `alpha` and `beta` of an axis.
+fn axis_cosines(scene: &Scene, ray: &Ray, emitter: &Emitter, axis: [f32; 3]) -> [f64; 2] {
+    let [o, d, y, a] = [ray.origin(), ray.direction(), emitter.position(), axis].map(|v| Vec3::from(v).as_dvec3());
+    let (a, d) = (a.normalize(), d.normalize());
+    [a.dot(o - y + scene.t_h() * d) / scene.h(), a.dot(d)]
 }
 
 /// The error of the exact inverse, rounded.
@@ -338,7 +385,7 @@ fn offset_floor(scene: &Scene, strategy: Strategy, moved: f64, u: f64) -> Option
 }
 
 fn pdf_floor(scene: &Scene, strategy: Strategy, t: f64) -> Option<f64> {
-    pdf_error(scene, strategy, t, rounded(scene, t).pdf(strategy, t))
+    pdf_error(scene, strategy, t, 0.0, rounded(scene, t).pdf(strategy, t))
 }
 
 /// `ends` are those of what may be meant by the distance that is compared.
@@ -354,12 +401,16 @@ fn offset_error(scene: &Scene, strategy: Strategy, ends: [f64; 2], u: f64) -> Op
     Some(beyond(ends, exact) / ulp(offset))
 }
 
-fn pdf_error(scene: &Scene, strategy: Strategy, t: f64, pdf: f64) -> Option<f64> {
+/// The edges of a cone may be moved by `edge`.
+fn pdf_error(scene: &Scene, strategy: Strategy, t: f64, edge: f64, pdf: f64) -> Option<f64> {
     let (t_a, t_b) = support(scene, strategy)?;
     let exact = scene.pdf(strategy, t);
     let size = exact.max(VANISHING / (t_b - t_a));
+    let around = [(t - edge).max(t_a), (t + edge).min(t_b)].map(|t| scene.pdf(strategy, t));
+    let may_be_outside = edge > 0.0 && (t - edge < t_a || t_b < t + edge);
+    let low = if may_be_outside { 0.0 } else { around[0].min(around[1]) };
     // Outside for rounding alone.
-    (t_a..=t_b).contains(&t).then(|| (pdf - exact).abs() / ulp(size))
+    (t_a..=t_b).contains(&t).then(|| beyond([low.min(exact), around[0].max(around[1]).max(exact)], pdf) / ulp(size))
 }
 
 /// The distances that are sampled.
@@ -383,11 +434,15 @@ fn r_error(scene: &Scene, strategy: Strategy, rounding: &Rounding, u: f64, r: f6
     outside([u - VARIATE, u + VARIATE].map(|u| scene.draw(strategy, u))).min(of_t)
 }
 
-fn integrand_error(scene: &Scene, t: f64, integrand: f64) -> Option<f64> {
+/// As for the pdf.
+fn integrand_error(scene: &Scene, t: f64, edge: f64, integrand: f64) -> Option<f64> {
     let exact = scene.integrand(t);
-    let size = exact * (VANISHING / scene.cosine(t)).max(1.0);
+    let size = exact * (VANISHING / (scene.cosine(t) * scene.falloff(t))).max(1.0);
     let comparable = depth(scene, t) < DEPTH && exact > TINY && size < 1.0 / TINY;
-    comparable.then(|| (integrand - exact).abs() / ulp(size))
+    let [low, high] = [t - edge, t + edge].map(|t| scene.falloff(t));
+    let exact_at = |falloff: f64| exact * (falloff / scene.falloff(t));
+    let ends = [exact_at(low.min(high)).min(exact), exact_at(low.max(high)).max(exact)];
+    comparable.then(|| beyond(ends, integrand) / ulp(size))
 }
 
 /// As for `r`: the weight is that of what rounds to `t`, or of a variate near `u`.
@@ -397,7 +452,7 @@ fn weight_error(scene: &Scene, strategy: Strategy, rounding: &Rounding, u: f64, 
     let inverse = |u: f64| scene.draw(strategy, u.clamp(OFF_THE_ENDS, 1.0 - OFF_THE_ENDS));
     let t = inverse(u);
     let exact = at(t);
-    let comparable = depth(scene, t) < DEPTH && exact > TINY && scene.cosine(t) > VANISHING;
+    let comparable = depth(scene, t) < DEPTH && exact > TINY && scene.cosine(t) * scene.falloff(t) > VANISHING;
     let outside = |ends: [f64; 2]| {
         let [low, high] = ends.map(at);
         beyond([exact.min(low).min(high), exact.max(low).max(high)], weight)
@@ -436,12 +491,18 @@ pub fn beyond_f32(scene: &Scene) -> bool {
     })
 }
 
-/// The integral of N over the angle from `a` to `b`, where N > 0, at most; it is no less than a quarter of this.
+/// The integral of N, or of the falloff of a spot, over the angle from `a` to `b`, at most; it is no less than a small share of this.
 fn most_light(scene: &Scene, a: f64, b: f64) -> f64 {
     let angle = scene.angle(a, b);
     // Beyond a right angle what is bright may lie between the ends.
     let bright = if angle > FRAC_PI_2 { scene.alpha().hypot(scene.beta()) } else { 0.0 };
-    angle * (scene.cosine(a) + scene.cosine(b)).max(bright)
+    angle * (scene.cosine(a) + scene.cosine(b)).max(bright) * most_falloff(scene, Strategy::EquiAngular)
+}
+
+/// The largest falloff of a spot in seven places where a strategy samples; 1 of other emitters.
+fn most_falloff(scene: &Scene, strategy: Strategy) -> f64 {
+    let within = |k: u32| scene.falloff(scene.draw(strategy, f64::from(k) / 8.0));
+    (1..8).map(within).fold(0.0, f64::max)
 }
 
 /// The light of a ray over that from an emitter which faces all of it squarely (N = 1), at most; 1 where that is more.
@@ -474,8 +535,7 @@ pub fn quantile(ascending: &[f64], p: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use airlight::{Emitter, Medium, Ray};
-    use glam::Vec3;
+    use airlight::Medium;
 
     /// The light of a ray along x up to `t_max`, of an emitter beside its middle.
     fn light(t_max: f32, normal: Vec3) -> f64 {

@@ -34,11 +34,14 @@ pub enum Family {
     RandomBits,
     /// `1 - |g|` from 2^-24 to 1e-3, and the emitter on the ray or next to it.
     Peaks,
+    /// Spots: cones of 0 to 90 degrees and of a tenth of a degree, edges hard and soft; apex on the ray or next to it, axes along
+    /// the ray, rays along the side of the cone, and cosines that are none.
+    Spot,
 }
 
 impl Family {
     /// All of them.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::Generic,
         Self::Variate,
         Self::NearEmitter,
@@ -51,6 +54,7 @@ impl Family {
         Self::Ray,
         Self::RandomBits,
         Self::Peaks,
+        Self::Spot,
     ];
 
     /// Its name on the command line and in JSON.
@@ -69,6 +73,7 @@ impl Family {
             Self::Ray => "ray",
             Self::RandomBits => "random-bits",
             Self::Peaks => "peaks",
+            Self::Spot => "spot",
         }
     }
 
@@ -95,6 +100,7 @@ impl Family {
                 let g = draw.pick(&[1.0, -1.0]) * (1.0 - draw.log_between(EPS, 1e-3));
                 Case { g, ..Case::near_emitter(&mut draw) }
             }
+            Self::Spot => Case::spot(&mut draw),
         }
     }
 }
@@ -126,8 +132,11 @@ pub struct Case {
     t_min: f32,
     t_max: f32,
     position: Vec3,
-    /// (0, 0, 0) for a point emitter.
+    /// (0, 0, 0) for a point emitter; the axis of a spot.
     normal: Vec3,
+    /// -1 without a cone.
+    cos_outer: f32,
+    cos_inner: f32,
     mu_a: f32,
     mu_s: f32,
     g: f32,
@@ -145,7 +154,9 @@ impl Case {
             t_min: ray.t_min(),
             t_max: ray.t_max(),
             position: emitter.position().into(),
-            normal: emitter.normal().unwrap_or_default().into(),
+            normal: emitter.normal().or(emitter.cone().map(|cone| cone.axis())).unwrap_or_default().into(),
+            cos_outer: emitter.cone().map_or(NO_CONE, |cone| cone.cos_outer()),
+            cos_inner: emitter.cone().map_or(NO_CONE, |cone| cone.cos_inner()),
             mu_a: medium.mu_a(),
             mu_s: medium.mu_s(),
             g: medium.g(),
@@ -159,12 +170,18 @@ impl Case {
     /// Whatever the constructors find.
     pub fn parts(&self) -> Result<(Ray, Emitter, Medium), Error> {
         let ray = Ray::new(self.origin, self.direction, self.t_min, self.t_max)?;
-        let emitter = if self.normal == Vec3::ZERO {
+        let emitter = if self.is_spot() {
+            Emitter::spot(self.position, self.normal, self.cos_outer, self.cos_inner)?
+        } else if self.normal == Vec3::ZERO {
             Emitter::point(self.position)?
         } else {
             Emitter::point_normal(self.position, self.normal)?
         };
         Ok((ray, emitter, Medium::new(self.mu_a, self.mu_s, self.g)?))
+    }
+
+    fn is_spot(&self) -> bool {
+        (self.cos_outer, self.cos_inner) != (NO_CONE, NO_CONE)
     }
 
     /// The scene of the oracle, if the case is a valid one.
@@ -200,6 +217,8 @@ impl Case {
             t_max: draw.between(1.0, 20.0),
             position: Vec3::ZERO,
             normal,
+            cos_outer: NO_CONE,
+            cos_inner: NO_CONE,
             mu_a: 0.5,
             mu_s: 0.2,
             g: draw.pick(&[0.0, 0.9]),
@@ -370,9 +389,57 @@ impl Case {
         let mut positive = |value: f32| any(value).abs();
         let (t_min, t_max) = (positive(case.t_min), positive(case.t_max));
         let (mu_a, mu_s) = (positive(case.mu_a), positive(case.mu_s));
-        Self { origin, direction, t_min, t_max, position, normal, mu_a, mu_s, g: any(case.g), u: any(case.u) }
+        let (g, u) = (any(case.g), any(case.u));
+        Self { origin, direction, t_min, t_max, position, normal, mu_a, mu_s, g, u, ..case }
+    }
+
+    /// The spot of a cone with this cosine, with an edge from hard to as soft as can be.
+    pub(crate) fn with_cone(self, draw: &mut Draw, axis: Vec3, cos_outer: f32) -> Self {
+        let share = [0.0, 0.3, 1.0, draw.uniform()][draw.below(4) as usize];
+        Self { normal: axis, cos_outer, cos_inner: (cos_outer + (1.0 - cos_outer) * share).min(1.0), ..self }
+    }
+
+    fn spot(draw: &mut Draw) -> Self {
+        let kind = draw.below(4);
+        let case = match kind {
+            0 => Self::near_emitter(draw),
+            1 => Self::infinite(draw),
+            _ => Self::any(draw),
+        };
+        let half_angle = match draw.below(8) {
+            0 => 0.1,
+            1 => 90.0,
+            2 => draw.pick(&[0.0, 0.1, 89.9]),
+            _ => draw.log_between(0.1, 90.0),
+        };
+        let outer = if half_angle == 90.0 { 0.0 } else { f64::from(half_angle).to_radians().cos() as f32 };
+        let d = case.direction;
+        let t = case.t_min + (case.t_max.min(100.0) - case.t_min) * draw.uniform();
+        let towards = (case.origin + d * t - case.position).normalize_or(d);
+        let across = d.cross(draw.direction()).normalize_or(Vec3::X);
+        let sine = (1.0 - outer * outer).max(0.0).sqrt();
+        let axis = match draw.below(8) {
+            0 => draw.direction(),
+            1 => d * draw.pick(&[1.0, -1.0]),
+            // Along the side of the cone, which an infinite ray would meet where no light is left.
+            2 if kind != 1 => d * outer + across * sine,
+            // The edge next to an end of the ray or at any other place of it.
+            3 => towards * outer + towards.cross(draw.direction()).normalize_or(across) * sine,
+            _ => towards + draw.direction() * (sine * draw.uniform()),
+        };
+        let mut case = case.with_cone(draw, axis.normalize_or(d), outer);
+        match draw.below(32) {
+            0 => case.cos_outer = draw.pick(&[f32::NAN, -0.5, 1.5, f32::INFINITY]),
+            1 => case.cos_inner = draw.pick(&[f32::NAN, -1.0, 1.5, f32::NEG_INFINITY]),
+            2 => case.normal *= draw.pick(&[0.0, 0.9995, 1.0005, 1.1]),
+            _ => {}
+        }
+        case
     }
 }
+
+/// The cosine that stands for no cone.
+const NO_CONE: f32 = -1.0;
 
 /// Columns of many cases.
 #[derive(Debug, Default)]
@@ -383,6 +450,8 @@ pub struct Columns {
     t_max: Vec<f32>,
     position: [Vec<f32>; 3],
     normal: [Vec<f32>; 3],
+    /// `cos_outer` and `cos_inner`, if there are spots.
+    cones: Option<[Vec<f32>; 2]>,
     mu_a: Vec<f32>,
     mu_s: Vec<f32>,
     g: Vec<f32>,
@@ -403,6 +472,10 @@ impl Columns {
             t_max: column(|case| case.t_max),
             position: columns(|case| case.position),
             normal: columns(|case| case.normal),
+            cones: cases
+                .iter()
+                .any(Case::is_spot)
+                .then(|| [column(|case| case.cos_outer), column(|case| case.cos_inner)]),
             mu_a: column(|case| case.mu_a),
             mu_s: column(|case| case.mu_s),
             g: column(|case| case.g),
@@ -420,7 +493,10 @@ impl Columns {
     /// Their emitters.
     #[must_use]
     pub fn emitters(&self) -> Emitters<'_> {
-        Emitters::each(self.position(), self.normal())
+        match &self.cones {
+            Some([outer, inner]) => Emitters::each_spot(self.position(), self.normal(), outer, inner),
+            None => Emitters::each(self.position(), self.normal()),
+        }
     }
 
     /// The positions of these.
@@ -429,7 +505,7 @@ impl Columns {
         self.position.each_ref().map(Vec::as_slice)
     }
 
-    /// Their normals.
+    /// Their normals, or axes.
     #[must_use]
     pub fn normal(&self) -> [&[f32]; 3] {
         self.normal.each_ref().map(Vec::as_slice)
