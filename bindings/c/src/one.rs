@@ -1,10 +1,10 @@
-//! Calls for one ray.
+//! Calls for one ray: in a grey medium those of airlight, in a coloured one batches of one, which have the channels.
 
 use crate::abi::*;
 use crate::arguments::{Options, Place, read};
 use crate::batch::{emitter, medium};
 use crate::status::{Failure, Result};
-use airlight::{Emitter, Emitters, Integral, Media, Medium, Ray, Rays, Sampler, Samples};
+use airlight::{Emitter, Emitters, Integral, Media, Medium, Ray, Rays, Sample, Sampler, Samples};
 use core::slice::{from_mut, from_ref};
 
 /// One ray, one emitter, one medium.
@@ -31,12 +31,32 @@ impl Scene {
         Ok(Self { given: scene.ray, ray, emitter, medium })
     }
 
-    /// The same as a batch, whose calls have values for each channel.
+    /// The same as a batch.
     fn batch(&self) -> (Rays<'_>, Emitters<'_>, Media<'_>) {
         let airlight_ray { origin, direction, t_min, t_max } = &self.given;
         let [origin, direction] = [origin, direction].map(|vector| vector.each_ref().map(from_ref));
         let rays = Rays::new(origin, direction, from_ref(t_min), from_ref(t_max));
         (rays, Emitters::one(self.emitter), Media::one(self.medium))
+    }
+
+    /// A sample of it.
+    fn sample(&self, sampler: &Sampler, u: f32) -> Result<airlight_one_sample> {
+        let mut result = airlight_one_sample::default();
+        let airlight_one_sample { t, pdf, weight, r, .. } = &mut result;
+        let channels = self.medium.channels();
+        if channels == 1 {
+            if let Some(sample) = sampler.sample_one(&self.ray, &self.emitter, &self.medium, u) {
+                Sample { t: *t, pdf: *pdf, weight: weight[0], r: *r, .. } = sample;
+            }
+            return Ok(result);
+        }
+        let mut out = Samples::new(from_mut(t), from_mut(pdf)).r(from_mut(r));
+        for (out, weight) in out.weights.iter_mut().zip(weight).take(channels) {
+            *out = Some(from_mut(weight));
+        }
+        let (rays, emitters, media) = self.batch();
+        sampler.sample(&rays, &emitters, &media, &[u], &mut out)?;
+        Ok(result)
     }
 
     /// Its integrand at a distance, in each of `C` channels.
@@ -69,15 +89,7 @@ pub(crate) unsafe fn sample_one(
     // SAFETY: as promised.
     let (sampler, scene, place) =
         unsafe { (Options::read(options)?.sampler()?, Scene::read(scene)?, Place::new("sample", sample)?) };
-    let mut result = airlight_one_sample::default();
-    let airlight_one_sample { t, pdf, weight, r, .. } = &mut result;
-    let mut out = Samples::new(from_mut(t), from_mut(pdf)).r(from_mut(r));
-    for (out, weight) in out.weights.iter_mut().zip(weight).take(scene.medium.channels()) {
-        *out = Some(from_mut(weight));
-    }
-    let (rays, emitters, media) = scene.batch();
-    sampler.sample(&rays, &emitters, &media, &[u], &mut out)?;
-    place.write(result);
+    place.write(scene.sample(&sampler, u)?);
     Ok(())
 }
 
@@ -117,7 +129,7 @@ pub(crate) unsafe fn evaluate_one(
         match scene.medium.channels() {
             3 => write(integrand, || scene.evaluate::<3>(&sampler, t)),
             4 => write(integrand, || scene.evaluate::<4>(&sampler, t)),
-            _ => write(integrand, || scene.evaluate::<1>(&sampler, t)),
+            _ => write(integrand, || Ok([sampler.evaluate_one(&scene.ray, &scene.emitter, &scene.medium, t)])),
         }
     }
 }
@@ -137,7 +149,7 @@ pub(crate) unsafe fn radiance_one(
         match scene.medium.channels() {
             3 => write(radiance, || scene.radiance::<3>(&integral)),
             4 => write(radiance, || scene.radiance::<4>(&integral)),
-            _ => write(radiance, || scene.radiance::<1>(&integral)),
+            _ => write(radiance, || Ok([integral.radiance_one(&scene.ray, &scene.emitter, &scene.medium)])),
         }
     }
 }
