@@ -340,7 +340,8 @@ typedef struct airlight_choices {
   size_t struct_size;
   // Uniform variates in [0, 1], one for each ray, independent of those that distances are sampled with.
   struct airlight_column u;
-  // A weight for each entry of the emitters' table (whose `index` is NULL, as it is what is chosen), finite and not negative, such as its mean intensity.
+  // A weight for each entry of the emitters' table (whose `index` is NULL, as it is what is chosen), finite and not
+  // negative, such as its mean intensity.
   struct airlight_column weights;
   // Which entry was chosen for each ray.
   struct airlight_index_output index;

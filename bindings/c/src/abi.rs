@@ -311,7 +311,8 @@ pub struct airlight_choices {
     pub struct_size: usize,
     /// Uniform variates in [0, 1], one for each ray, independent of those that distances are sampled with.
     pub u: airlight_column,
-    /// A weight for each entry of the emitters' table (whose `index` is NULL, as it is what is chosen), finite and not negative, such as its mean intensity.
+    /// A weight for each entry of the emitters' table (whose `index` is NULL, as it is what is chosen), finite and not
+    /// negative, such as its mean intensity.
     pub weights: airlight_column,
     /// Which entry was chosen for each ray.
     pub index: airlight_index_output,
