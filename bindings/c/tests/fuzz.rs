@@ -39,14 +39,14 @@ impl Fuzz {
     /// A column of so many bytes an element, or NULL; only a count that does not fit may lead out of the memory, and then
     /// the call is refused.
     fn column(&mut self, count: usize, element: usize) -> (*mut u8, usize) {
-        if self.rng.u32(0..100) == 0 {
+        if self.rng.u32(0..400) == 0 {
             return (core::ptr::null_mut(), self.number(&[0, 4]));
         }
         let bytes = FLOATS * 4;
         let most = (bytes / 2).checked_div(count).unwrap_or(64).max(element);
-        let stride = match self.rng.u32(0..8) {
-            0..4 => 0,
-            4 => self.rng.usize(0..8).min(most),
+        let stride = match self.rng.u32(0..64) {
+            0..32 => 0,
+            32 => self.rng.usize(0..8).min(most),
             _ => self.rng.usize(element.min(most)..=most.min(element + 60).max(element.min(most))),
         };
         let step = stride.max(element);
