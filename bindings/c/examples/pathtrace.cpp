@@ -1,4 +1,5 @@
-// Renders a box of fog with a lamp and a ball that casts a shadow, twice: ray by ray, and as a batch. The bits are equal.
+// Renders a box of tinted fog with a spot and a ball that casts a shadow, twice: ray by ray, and as a batch. The bits are
+// equal.
 //
 //     pathtrace PICTURE.ppm [SIDE]      a square of 256 pixels a side unless told otherwise
 //
@@ -19,13 +20,18 @@ using airlight::Vec3;
 
 constexpr std::size_t samples_per_ray = 4;
 constexpr float pi = 3.14159265f, intensity = 30.0f, ball_radius = 0.7f;
-constexpr Vec3 lamp_position = {0.0f, 1.9f, 3.6f}, lamp_normal = {0.0f, -1.0f, 0.0f}, ball = {0.2f, -0.3f, 3.4f};
-constexpr float mu_a = 0.02f, mu_s = 0.12f, mu_t = mu_a + mu_s;
+constexpr Vec3 lamp_position = {0.0f, 1.9f, 3.6f}, lamp_axis = {0.0f, -1.0f, 0.0f}, ball = {0.2f, -0.3f, 3.4f};
+// Half of the angles to which the spot shines at all, and in full: 60 and 35 degrees.
+constexpr float cos_outer = 0.5f, cos_inner = 0.82f;
+constexpr Vec3 mu_a = {0.01f, 0.02f, 0.04f}, mu_s = {0.08f, 0.12f, 0.18f};
 
 Vec3 operator+(const Vec3 &a, const Vec3 &b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
 Vec3 operator-(const Vec3 &a, const Vec3 &b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 Vec3 operator*(float s, const Vec3 &a) { return {s * a[0], s * a[1], s * a[2]}; }
+Vec3 operator*(const Vec3 &a, const Vec3 &b) { return {a[0] * b[0], a[1] * b[1], a[2] * b[2]}; }
 float dot(const Vec3 &a, const Vec3 &b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+float luminance(const Vec3 &color) { return dot(color, {0.2126f, 0.7152f, 0.0722f}); }
 
 // Where a ray meets the ball; infinite if it does not.
 float to_ball(const Vec3 &origin, const Vec3 &direction) {
@@ -58,6 +64,18 @@ Hit hit(const Vec3 &direction) {
     return nearest;
 }
 
+// What the fog lets through on a way of so many metres.
+Vec3 transmittance(float length) {
+    const Vec3 depth = length * (mu_a + mu_s);
+    return {std::exp(-depth[0]), std::exp(-depth[1]), std::exp(-depth[2])};
+}
+
+// How the spot's intensity falls off from the inner to the outer cone.
+float falloff(float cosine) {
+    const float s = std::clamp((cosine - cos_outer) / (cos_inner - cos_outer), 0.0f, 1.0f);
+    return s * s * (3.0f - 2.0f * s);
+}
+
 bool sees_lamp(const Vec3 &from) {
     const Vec3 way = lamp_position - from;
     const float distance = std::sqrt(dot(way, way));
@@ -68,9 +86,9 @@ bool sees_lamp(const Vec3 &from) {
 Vec3 surface(const Hit &hit, const Vec3 &direction) {
     const Vec3 point = hit.t * direction, way = lamp_position - point;
     const float r = std::sqrt(dot(way, way));
-    const float cosines = std::max(dot(hit.normal, way) / r, 0.0f) * std::max(-dot(lamp_normal, way) / r, 0.0f);
-    if (cosines == 0.0f || !sees_lamp(point + 1e-3f * hit.normal)) return {};
-    return (intensity * cosines / (r * r) * std::exp(-mu_t * (hit.t + r)) / pi) * hit.albedo;
+    const float light = std::max(dot(hit.normal, way) / r, 0.0f) * falloff(-dot(lamp_axis, way) / r);
+    if (light == 0.0f || !sees_lamp(point + 1e-3f * hit.normal)) return {};
+    return (intensity * light / (r * r) / pi) * transmittance(hit.t + r) * hit.albedo;
 }
 
 [[noreturn]] void fail(const char *what) {
@@ -108,20 +126,24 @@ int main(int argc, char **argv) {
         for (std::size_t k = 0; k < samples_per_ray; ++k)
             u[i * samples_per_ray + k] = (static_cast<float>(k) + uniform()) / samples_per_ray;
     }
-    const airlight_emitter lamp = airlight::point_normal(lamp_position, lamp_normal);
+    const airlight_emitter lamp = airlight::spot(lamp_position, lamp_axis, cos_outer, cos_inner);
     const airlight_medium fog = airlight::medium(mu_a, mu_s, 0.3f);
     const airlight::Options options;
 
-    // As a batch.
+    // As a batch; weights and radiances in each channel.
     const airlight::Rays batch = {{zero, zero, zero}, {x, y, z}, {}, t_max};
-    std::vector<float> t(u.size()), weight(u.size()), radiance(rays);
+    std::vector<float> t(u.size());
+    std::array<std::vector<float>, 3> weight, radiance;
     airlight::Samples samples;
     samples.u = airlight::Column(u).by(samples_per_ray);
     samples.t = airlight::Output(t).by(samples_per_ray);
-    samples.weight[0] = airlight::Output(weight).by(samples_per_ray);
+    for (std::size_t c = 0; c < 3; ++c) {
+        weight[c].resize(u.size()), radiance[c].resize(rays);
+        samples.weight[c] = airlight::Output(weight[c]).by(samples_per_ray);
+    }
     airlight_counts counts = {};
     require(airlight::sample(options, batch, lamp, fog, samples, &counts));
-    require(airlight::radiance(options, batch, lamp, fog, {radiance}));
+    require(airlight::radiance(options, batch, lamp, fog, {radiance[0], radiance[1], radiance[2]}));
     if (counts.invalid != 0) fail("invalid rays");
 
     // A column of another length is named, and nothing is called.
@@ -135,22 +157,25 @@ int main(int argc, char **argv) {
     for (std::size_t i = 0; i < rays; ++i) {
         const Vec3 direction = {x[i], y[i], z[i]};
         const airlight_ray ray = airlight::ray({}, direction, 0.0f, t_max[i]);
-        float in_fog = 0.0f;
+        Vec3 in_fog = {};
         double all = 0.0;
         for (std::size_t k = i * samples_per_ray; k < (i + 1) * samples_per_ray; ++k) {
             airlight_one_sample sample = {};
             require(airlight::sample_one(options, ray, lamp, fog, u[k], sample));
+            const Vec3 in_batch = {weight[0][k], weight[1][k], weight[2][k]};
             if (std::memcmp(&sample.t, &t[k], sizeof(float)) != 0 ||
-                std::memcmp(&sample.weight[0], &weight[k], sizeof(float)) != 0)
+                std::memcmp(sample.weight, in_batch.data(), sizeof in_batch) != 0)
                 fail("a ray of its own has other bits than in the batch");
-            all += sample.weight[0] / samples_per_ray;
-            if (sees_lamp(sample.t * direction)) in_fog += intensity * sample.weight[0] / samples_per_ray;
+            const Vec3 estimate = (1.0f / samples_per_ray) * in_batch;
+            all += luminance(estimate);
+            if (sees_lamp(sample.t * direction)) in_fog = in_fog + intensity * estimate;
         }
-        fog_light += in_fog / static_cast<double>(rays);
+        const double known = luminance({radiance[0][i], radiance[1][i], radiance[2][i]});
+        fog_light += luminance(in_fog) / static_cast<double>(rays);
         unshadowed += all / static_cast<double>(rays);
-        truth += radiance[i] / static_cast<double>(rays);
-        squares += (all - radiance[i]) * (all - radiance[i]);
-        const Vec3 color = surface(hits[i], direction) + Vec3{in_fog, in_fog, in_fog};
+        truth += known / static_cast<double>(rays);
+        squares += (all - known) * (all - known);
+        const Vec3 color = surface(hits[i], direction) + in_fog;
         for (const float c : color)
             picture.push_back(static_cast<unsigned char>(255.0f * std::pow(std::min(1.5f * c / (0.3f + c), 1.0f), 0.6f)));
     }

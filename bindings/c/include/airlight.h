@@ -38,8 +38,10 @@ enum airlight_status
   AIRLIGHT_STATUS_VALUE = 7,
   // There is no such thing: in this version, of this strategy or on this CPU.
   AIRLIGHT_STATUS_UNAVAILABLE = 8,
+  // Media have other numbers of channels than each other, or than there are columns for them.
+  AIRLIGHT_STATUS_CHANNELS = 9,
   // A defect of airlight. Outputs may have been written.
-  AIRLIGHT_STATUS_PANIC = 9,
+  AIRLIGHT_STATUS_PANIC = 10,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -210,7 +212,8 @@ typedef struct airlight_emitters {
   struct airlight_column position[3];
   // Normals or axes, x, y, z; all NULL, or 0 for a ray: its emitter shines alike in all directions.
   struct airlight_column direction[3];
-  // With `cos_inner`: the emitters are spots, but those of which both cosines are -1. Both NULL: there are no spots.
+  // With `cos_inner`, as those of an `airlight_emitter`: the emitters are spots, but those of which both cosines are -1.
+  // Both NULL: there are no spots.
   struct airlight_column cos_outer;
   // See `cos_outer`.
   struct airlight_column cos_inner;
@@ -240,9 +243,9 @@ typedef struct airlight_media {
   struct airlight_index_column index;
   // How many channels the columns have: 1, 3 or 4; 0 means 1.
   uint32_t channels;
-  // Absorption coefficients of each channel (1/m).
+  // Absorption coefficients of each channel (1/m), NULL beyond `channels`.
   struct airlight_column mu_a[4];
-  // Scattering coefficients of each channel (1/m).
+  // Scattering coefficients of each channel (1/m), NULL beyond `channels`.
   struct airlight_column mu_s[4];
   // Mean cosines; NULL: 0.
   struct airlight_column g;
@@ -290,8 +293,8 @@ typedef struct airlight_samples {
   struct airlight_output t;
   // Probability densities over distance (1/m); 0: there is no sample.
   struct airlight_output pdf;
-  // `mu_s T rho N / (r^2 pdf)`, in 1/m^2, for each channel of the media: times the intensity of the emitter, an estimate of
-  // the radiance of the ray.
+  // `mu_s T rho N / (r^2 pdf)`, in 1/m^2, a column for each channel of the media, or none: times the intensity of the
+  // emitter, an estimate of the radiance of the ray.
   struct airlight_output weight[4];
   // Distances from the samples to the emitters (m).
   struct airlight_output r;
@@ -319,7 +322,7 @@ typedef struct airlight_values {
   size_t per_ray;
   // Distances along the rays (m); `airlight_radiance` ignores them.
   struct airlight_column t;
-  // The values: of `airlight_evaluate` and `airlight_radiance` for each channel of the media, else the first one.
+  // The values: of `airlight_evaluate` and `airlight_radiance` a column for each channel of the media, else the first one.
   struct airlight_output value[4];
 } airlight_values;
 
@@ -337,7 +340,8 @@ typedef struct airlight_choices {
   size_t struct_size;
   // Uniform variates in [0, 1], one for each ray, independent of those that distances are sampled with.
   struct airlight_column u;
-  // A weight for each entry of the emitters' table (whose `index` is NULL, as it is what is chosen), finite and not negative, such as its mean intensity.
+  // A weight for each entry of the emitters' table (whose `index` is NULL, as it is what is chosen), finite and not
+  // negative, such as its mean intensity.
   struct airlight_column weights;
   // Which entry was chosen for each ray.
   struct airlight_index_output index;

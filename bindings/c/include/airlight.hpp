@@ -126,7 +126,7 @@ inline airlight_ray ray(const Vec3 &o, const Vec3 &d, float t_min, float t_max) 
     return {{o[0], o[1], o[2]}, {d[0], d[1], d[2]}, t_min, t_max};
 }
 
-// The emitter of each ray: one, `table` and `index`, or columns.
+// The emitter of each ray: one, `table` and `index`, or columns; with the cosines they are those of spots.
 struct Emitters {
     airlight_emitter one = {};
     View<const airlight_emitter> table;
@@ -140,7 +140,7 @@ struct Emitters {
     Emitters(View<const airlight_emitter> table, Indices index) : table(table), index(index) {}
 };
 
-// The medium of each ray: one, `table` and `index`, or columns.
+// The medium of each ray: one, `table` and `index`, or columns of so many `channels`.
 struct Media {
     airlight_medium one = {};
     View<const airlight_medium> table;
@@ -155,7 +155,8 @@ struct Media {
     Media(View<const airlight_medium> table, Indices index) : table(table), index(index) {}
 };
 
-// What `sample` reads and writes; `by(k)` of columns for k samples for each ray.
+// What `sample` reads and writes; `by(k)` of columns for k samples for each ray. A weight for each channel of the media, or
+// none.
 struct Samples {
     Column u;
     Output t, pdf;

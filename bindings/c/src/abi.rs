@@ -26,8 +26,10 @@ pub enum airlight_status {
     Value = 7,
     /// There is no such thing: in this version, of this strategy or on this CPU.
     Unavailable = 8,
+    /// Media have other numbers of channels than each other, or than there are columns for them.
+    Channels = 9,
     /// A defect of airlight. Outputs may have been written.
-    Panic = 9,
+    Panic = 10,
 }
 
 /// Which density over distance is sampled. The documentation of the Rust crate says which one to take.
@@ -215,7 +217,8 @@ pub struct airlight_emitters {
     pub position: [airlight_column; 3],
     /// Normals or axes, x, y, z; all NULL, or 0 for a ray: its emitter shines alike in all directions.
     pub direction: [airlight_column; 3],
-    /// With `cos_inner`: the emitters are spots, but those of which both cosines are -1. Both NULL: there are no spots.
+    /// With `cos_inner`, as those of an `airlight_emitter`: the emitters are spots, but those of which both cosines are -1.
+    /// Both NULL: there are no spots.
     pub cos_outer: airlight_column,
     /// See `cos_outer`.
     pub cos_inner: airlight_column,
@@ -235,9 +238,9 @@ pub struct airlight_media {
     pub index: airlight_index_column,
     /// How many channels the columns have: 1, 3 or 4; 0 means 1.
     pub channels: u32,
-    /// Absorption coefficients of each channel (1/m).
+    /// Absorption coefficients of each channel (1/m), NULL beyond `channels`.
     pub mu_a: [airlight_column; 4],
-    /// Scattering coefficients of each channel (1/m).
+    /// Scattering coefficients of each channel (1/m), NULL beyond `channels`.
     pub mu_s: [airlight_column; 4],
     /// Mean cosines; NULL: 0.
     pub g: airlight_column,
@@ -279,8 +282,8 @@ pub struct airlight_samples {
     pub t: airlight_output,
     /// Probability densities over distance (1/m); 0: there is no sample.
     pub pdf: airlight_output,
-    /// `mu_s T rho N / (r^2 pdf)`, in 1/m^2, for each channel of the media: times the intensity of the emitter, an estimate of
-    /// the radiance of the ray.
+    /// `mu_s T rho N / (r^2 pdf)`, in 1/m^2, a column for each channel of the media, or none: times the intensity of the
+    /// emitter, an estimate of the radiance of the ray.
     pub weight: [airlight_output; 4],
     /// Distances from the samples to the emitters (m).
     pub r: airlight_output,
@@ -296,7 +299,7 @@ pub struct airlight_values {
     pub per_ray: usize,
     /// Distances along the rays (m); `airlight_radiance` ignores them.
     pub t: airlight_column,
-    /// The values: of `airlight_evaluate` and `airlight_radiance` for each channel of the media, else the first one.
+    /// The values: of `airlight_evaluate` and `airlight_radiance` a column for each channel of the media, else the first one.
     pub value: [airlight_output; 4],
 }
 
@@ -308,7 +311,8 @@ pub struct airlight_choices {
     pub struct_size: usize,
     /// Uniform variates in [0, 1], one for each ray, independent of those that distances are sampled with.
     pub u: airlight_column,
-    /// A weight for each entry of the emitters' table (whose `index` is NULL, as it is what is chosen), finite and not negative, such as its mean intensity.
+    /// A weight for each entry of the emitters' table (whose `index` is NULL, as it is what is chosen), finite and not
+    /// negative, such as its mean intensity.
     pub weights: airlight_column,
     /// Which entry was chosen for each ray.
     pub index: airlight_index_output,

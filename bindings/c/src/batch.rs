@@ -2,10 +2,11 @@
 
 use crate::abi::*;
 use crate::arguments::read;
-use crate::columns::{Block, Columns, Input, Rooms};
+use crate::columns::{Block, Columns, Input, Rooms, check_channels};
 use crate::span::Name;
 use crate::status::{Failure, Result};
 use airlight::{Emitter, Emitters, Media, Medium, Rays};
+use core::array;
 
 /// The columns of rays.
 struct RayColumns {
@@ -26,12 +27,14 @@ enum Source<T, E> {
 struct EmitterColumns {
     position: [Input<f32>; 3],
     direction: [Input<f32>; 3],
+    /// `cos_outer` and `cos_inner`, where there are spots.
+    cosines: Option<[Input<f32>; 2]>,
 }
 
-/// The columns of media.
+/// The columns of media; those of a channel each.
 struct MediumColumns {
-    mu_a: Input<f32>,
-    mu_s: Input<f32>,
+    mu_a: Vec<Input<f32>>,
+    mu_s: Vec<Input<f32>>,
     g: Input<f32>,
 }
 
@@ -76,9 +79,22 @@ impl RaysInMedia {
         let media = match &self.media {
             Source::One(medium) => Media::one(*medium),
             Source::Table(table, index) => Media::table(table, index.read(block, rooms)),
-            Source::Each(MediumColumns { mu_a, mu_s, g }) => Media::each(read(mu_a), read(mu_s), read(g)),
+            Source::Each(columns) => match self.channels {
+                3 => columns.read::<3>(block, rooms),
+                4 => columns.read::<4>(block, rooms),
+                _ => columns.read::<1>(block, rooms),
+            },
         };
         (rays, media)
+    }
+}
+
+impl MediumColumns {
+    /// Those of a block, which have `C` channels.
+    fn read<'a, 's: 'a, const C: usize>(&'a self, block: &Block, rooms: &mut Rooms<'s>) -> Media<'a> {
+        let mut read = |column: &Input<f32>| column.read(block, rooms);
+        let mu_a = array::from_fn(|c| read(&self.mu_a[c]));
+        Media::each_coloured::<C>(mu_a, array::from_fn(|c| read(&self.mu_s[c])), read(&self.g))
     }
 }
 
@@ -96,9 +112,6 @@ impl Lights {
             return Ok(Self(of_table(table, "emitters", emitters.index, columns)?));
         }
         check_no_index("emitters", emitters.index)?;
-        if !emitters.cos_outer.data.is_null() || !emitters.cos_inner.data.is_null() {
-            return Err(no_kernels("spots"));
-        }
         let position = each("emitters.position", emitters.position, columns)?;
         let direction = if emitters.direction.iter().all(|column| column.data.is_null()) {
             let zeros = |column| columns.floats_or_zeros("emitters.direction".into(), column);
@@ -107,7 +120,14 @@ impl Lights {
         } else {
             each("emitters.direction", emitters.direction, columns)?
         };
-        Ok(Self(Source::Each(EmitterColumns { position, direction })))
+        let (cos_outer, cos_inner) = (emitters.cos_outer, emitters.cos_inner);
+        let cosines = if cos_outer.data.is_null() && cos_inner.data.is_null() {
+            None
+        } else {
+            let cos_outer = columns.floats("emitters.cos_outer".into(), cos_outer, 1)?;
+            Some([cos_outer, columns.floats("emitters.cos_inner".into(), cos_inner, 1)?])
+        };
+        Ok(Self(Source::Each(EmitterColumns { position, direction, cosines })))
     }
 
     /// Those of a block.
@@ -115,10 +135,13 @@ impl Lights {
         match &self.0 {
             Source::One(emitter) => Emitters::one(*emitter),
             Source::Table(table, index) => Emitters::table(table, index.read(block, rooms)),
-            Source::Each(EmitterColumns { position, direction }) => {
+            Source::Each(EmitterColumns { position, direction, cosines }) => {
                 let mut read = |column: &Input<f32>| column.read(block, rooms);
-                let position = position.each_ref().map(&mut read);
-                Emitters::each(position, direction.each_ref().map(&mut read))
+                let (position, direction) = (position.each_ref().map(&mut read), direction.each_ref().map(&mut read));
+                match cosines {
+                    None => Emitters::each(position, direction),
+                    Some([outer, inner]) => Emitters::each_spot(position, direction, read(outer), read(inner)),
+                }
             }
         }
     }
@@ -158,38 +181,16 @@ unsafe fn media(media: &airlight_media, columns: &mut Columns) -> Result<(Source
     if !media.table.is_null() {
         // SAFETY: as promised.
         let table = unsafe { table("media.table", media.table, media.table_count, medium)? };
-        let channels = table[0].channels();
-        if let Some(i) = table.iter().position(|medium| medium.channels() != channels) {
-            let (field, count) = (format!("media.table[{i}].channels"), table[i].channels());
-            return Err(Failure::value(field, count, &format!("{channels}, as of media.table[0]")));
-        }
+        // Where they differ, the call says so.
+        let channels = table.iter().map(Medium::channels).max().unwrap_or(1);
         return Ok((of_table(table, "media", media.index, columns)?, channels));
     }
     check_no_index("media", media.index)?;
     let channels = channels("media.channels", media.channels)?;
-    if channels > 1 {
-        return Err(no_kernels("coloured media"));
-    }
-    for (name, columns) in [("media.mu_a", media.mu_a), ("media.mu_s", media.mu_s)] {
-        check_unused(name, columns.map(|column| column.data.is_null()), channels)?;
-    }
-    let mu_a = columns.floats(Name("media.mu_a", Some(0)), media.mu_a[0], 1)?;
-    let mu_s = columns.floats(Name("media.mu_s", Some(0)), media.mu_s[0], 1)?;
+    let mu_a = each_channel("media.mu_a", media.mu_a, channels, columns)?;
+    let mu_s = each_channel("media.mu_s", media.mu_s, channels, columns)?;
     let g = columns.floats_or_zeros("media.g".into(), media.g)?;
     Ok((Source::Each(MediumColumns { mu_a, mu_s, g }), channels))
-}
-
-/// What there will be one day.
-fn no_kernels(what: &str) -> Failure {
-    Failure::new(airlight_status::Unavailable, format!("there are no kernels for {what}"))
-}
-
-/// `Ok` if no column beyond the channels is given.
-pub(crate) fn check_unused(name: &'static str, are_null: [bool; 4], channels: usize) -> Result<()> {
-    match (channels..4).find(|&c| !are_null[c]) {
-        None => Ok(()),
-        Some(c) => Err(Failure::value(Name(name, Some(c)), "given", &format!("{channels} channels"))),
-    }
 }
 
 /// `Ok` if no index is given, where there is no table.
@@ -202,6 +203,17 @@ fn each(name: &'static str, given: [airlight_column; 3], columns: &mut Columns) 
     let mut k = 0..;
     let [x, y, z] = given.map(|column| columns.floats(Name(name, k.next()), column, 1));
     Ok([x?, y?, z?])
+}
+
+/// Columns of so many channels.
+fn each_channel(
+    name: &'static str,
+    given: [airlight_column; 4],
+    channels: usize,
+    columns: &mut Columns,
+) -> Result<Vec<Input<f32>>> {
+    check_channels(name, given.map(|column| !column.data.is_null()), channels)?;
+    (0..channels).map(|c| columns.floats(Name(name, Some(c)), given[c], 1)).collect()
 }
 
 /// What a table has for each ray.

@@ -2,11 +2,11 @@
 
 use crate::abi::*;
 use crate::arguments::{CountsPlace, Options, read};
-use crate::batch::{Lights, RaysInMedia, check_unused, table_of_lights};
+use crate::batch::{Lights, RaysInMedia, table_of_lights};
 use crate::columns::{Columns, Open, Output};
-use crate::span::Name;
 use crate::status::{Failure, Result};
 use airlight::{Counts, Emitters, Error, Media, Rays, Sampler, Samples};
+use core::array;
 
 /// What every call takes; `L` is what lights the rays.
 struct Call<L> {
@@ -58,43 +58,40 @@ pub(crate) unsafe fn sample(
     let Call { options, mut columns, rays, lights, counts: place } = call;
     let sampler = options.sampler()?;
     let per_ray = at_least_one("samples.per_ray", samples.per_ray)?;
-    check_unused("samples.weight", samples.weight.map(|column| column.data.is_null()), rays.channels())?;
+    let is_weighted = samples.weight.iter().any(|column| !column.data.is_null());
     let u = columns.floats("samples.u".into(), samples.u, per_ray)?;
     let t = columns.output("samples.t".into(), samples.t, per_ray)?;
     let pdf = columns.output("samples.pdf".into(), samples.pdf, per_ray)?;
-    let weight = columns.if_wanted(Name("samples.weight", Some(0)), samples.weight[0], per_ray)?;
+    let channels = if is_weighted { rays.channels() } else { 0 };
+    let weights = columns.channels("samples.weight", samples.weight, channels, per_ray)?;
     let r = columns.if_wanted("samples.r".into(), samples.r, per_ray)?;
 
     let counts = columns.travel(per_ray, options.threads(), |block, rooms, threads| {
         let open = |column: Output<f32>, rooms: &mut _| column.open(block, rooms);
         let ((rays, media), emitters) = (rays.read(block, rooms), lights.read(block, rooms));
         let (u, t, pdf) = (u.read(block, rooms), open(t, rooms), open(pdf, rooms));
-        let (mut weight, mut r) = (weight.map(|column| open(column, rooms)), r.map(|column| open(column, rooms)));
+        let mut weights: Vec<_> = weights.iter().map(|&column| open(column, rooms)).collect();
+        let mut r = r.map(|column| open(column, rooms));
         let mut out = Samples::new(t.values, pdf.values);
-        if let Some(weight) = &mut weight {
-            out = out.weight(weight.values);
+        for (weight, open) in out.weights.iter_mut().zip(&mut weights) {
+            *weight = Some(open.values);
         }
         if let Some(r) = &mut r {
             out = out.r(r.values);
         }
         let counts = sampler.with_threads(threads).sample(&rays, &emitters, &media, u, &mut out)?;
-        [t, pdf].into_iter().chain(weight).chain(r).for_each(Open::close);
+        [t, pdf].into_iter().chain(weights).chain(r).for_each(Open::close);
         Ok(counts)
     })?;
     place.write(counts);
     Ok(())
 }
 
-/// What is known at given distances.
-pub(crate) type AtDistance =
-    fn(&Sampler, &Rays<'_>, &Emitters<'_>, &Media<'_>, &[f32], &mut [f32]) -> core::result::Result<Counts, Error>;
-
-/// Writes what is known at given distances.
+/// Writes the density at given distances.
 ///
 /// # Safety
 /// As [`sample`].
-pub(crate) unsafe fn at_distances(
-    at_distance: AtDistance,
+pub(crate) unsafe fn pdf(
     options: *const airlight_options,
     batch: *const airlight_batch,
     values: *const airlight_values,
@@ -102,25 +99,44 @@ pub(crate) unsafe fn at_distances(
 ) -> Result<()> {
     // SAFETY: as promised.
     let (call, values) = unsafe { (Call::new(options, batch, counts, Lights::new)?, read("values", values)?) };
-    let Call { options, mut columns, rays, lights, counts: place } = call;
-    let sampler = options.sampler()?;
-    let per_ray = at_least_one("values.per_ray", values.per_ray)?;
-    check_unused("values.value", values.value.map(|column| column.data.is_null()), 1)?;
-    let t = columns.floats("values.t".into(), values.t, per_ray)?;
-    let value = columns.output(Name("values.value", Some(0)), values.value[0], per_ray)?;
-
-    let counts = columns.travel(per_ray, options.threads(), |block, rooms, threads| {
-        let ((rays, media), emitters) = (rays.read(block, rooms), lights.read(block, rooms));
-        let (t, value) = (t.read(block, rooms), value.open(block, rooms));
-        let counts = at_distance(&sampler.with_threads(threads), &rays, &emitters, &media, t, value.values)?;
-        value.close();
-        Ok(counts)
-    })?;
-    place.write(counts);
-    Ok(())
+    call.at_distances(&values, |sampler, rays, emitters, media, t, [pdf]| sampler.pdf(rays, emitters, media, t, pdf))
 }
 
-/// Writes the radiance of each ray.
+/// Writes the distribution function at given distances.
+///
+/// # Safety
+/// As [`sample`].
+pub(crate) unsafe fn cdf(
+    options: *const airlight_options,
+    batch: *const airlight_batch,
+    values: *const airlight_values,
+    counts: *mut airlight_counts,
+) -> Result<()> {
+    // SAFETY: as promised.
+    let (call, values) = unsafe { (Call::new(options, batch, counts, Lights::new)?, read("values", values)?) };
+    call.at_distances(&values, |sampler, rays, emitters, media, t, [cdf]| sampler.cdf(rays, emitters, media, t, cdf))
+}
+
+/// Writes the integrand at given distances, for each channel.
+///
+/// # Safety
+/// As [`sample`].
+pub(crate) unsafe fn evaluate(
+    options: *const airlight_options,
+    batch: *const airlight_batch,
+    values: *const airlight_values,
+    counts: *mut airlight_counts,
+) -> Result<()> {
+    // SAFETY: as promised.
+    let (call, values) = unsafe { (Call::new(options, batch, counts, Lights::new)?, read("values", values)?) };
+    match call.rays.channels() {
+        3 => call.at_distances::<3>(&values, Sampler::evaluate_coloured),
+        4 => call.at_distances::<4>(&values, Sampler::evaluate_coloured),
+        _ => call.at_distances::<1>(&values, Sampler::evaluate_coloured),
+    }
+}
+
+/// Writes the radiance of each ray, for each channel.
 ///
 /// # Safety
 /// As [`sample`].
@@ -132,20 +148,56 @@ pub(crate) unsafe fn radiance(
 ) -> Result<()> {
     // SAFETY: as promised.
     let (call, values) = unsafe { (Call::new(options, batch, counts, Lights::new)?, read("values", values)?) };
-    let Call { options, mut columns, rays, lights, counts: place } = call;
-    let integral = options.integral();
-    check_unused("values.value", values.value.map(|column| column.data.is_null()), rays.channels())?;
-    let value = columns.output(Name("values.value", Some(0)), values.value[0], 1)?;
+    match call.rays.channels() {
+        3 => call.radiance::<3>(&values),
+        4 => call.radiance::<4>(&values),
+        _ => call.radiance::<1>(&values),
+    }
+}
 
-    let counts = columns.travel(1, options.threads(), |block, rooms, threads| {
-        let ((rays, media), emitters) = (rays.read(block, rooms), lights.read(block, rooms));
-        let value = value.open(block, rooms);
-        let counts = integral.with_threads(threads).radiance(&rays, &emitters, &media, value.values)?;
-        value.close();
-        Ok(counts)
-    })?;
-    place.write(counts);
-    Ok(())
+/// What is known at given distances, in each of `C` channels.
+type AtDistances<const C: usize> =
+    fn(&Sampler, &Rays<'_>, &Emitters<'_>, &Media<'_>, &[f32], [&mut [f32]; C]) -> core::result::Result<Counts, Error>;
+
+impl Call<Lights> {
+    /// Writes what is known at given distances.
+    fn at_distances<const C: usize>(self, values: &airlight_values, at_distances: AtDistances<C>) -> Result<()> {
+        let Self { options, mut columns, rays, lights, counts: place } = self;
+        let sampler = options.sampler()?;
+        let per_ray = at_least_one("values.per_ray", values.per_ray)?;
+        let t = columns.floats("values.t".into(), values.t, per_ray)?;
+        let outputs = columns.channels("values.value", values.value, C, per_ray)?;
+
+        let counts = columns.travel(per_ray, options.threads(), |block, rooms, threads| {
+            let ((rays, media), emitters) = (rays.read(block, rooms), lights.read(block, rooms));
+            let t = t.read(block, rooms);
+            let mut open: [_; C] = array::from_fn(|c| outputs[c].open(block, rooms));
+            let out = open.each_mut().map(|open| &mut *open.values);
+            let counts = at_distances(&sampler.with_threads(threads), &rays, &emitters, &media, t, out)?;
+            open.into_iter().for_each(Open::close);
+            Ok(counts)
+        })?;
+        place.write(counts);
+        Ok(())
+    }
+
+    /// Writes the radiance of each ray, in each of `C` channels.
+    fn radiance<const C: usize>(self, values: &airlight_values) -> Result<()> {
+        let Self { options, mut columns, rays, lights, counts: place } = self;
+        let integral = options.integral();
+        let outputs = columns.channels("values.value", values.value, C, 1)?;
+
+        let counts = columns.travel(1, options.threads(), |block, rooms, threads| {
+            let ((rays, media), emitters) = (rays.read(block, rooms), lights.read(block, rooms));
+            let mut open: [_; C] = array::from_fn(|c| outputs[c].open(block, rooms));
+            let out = open.each_mut().map(|open| &mut *open.values);
+            let counts = integral.with_threads(threads).radiance_coloured(&rays, &emitters, &media, out)?;
+            open.into_iter().for_each(Open::close);
+            Ok(counts)
+        })?;
+        place.write(counts);
+        Ok(())
+    }
 }
 
 /// Chooses an emitter for each ray.

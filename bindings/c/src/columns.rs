@@ -194,6 +194,19 @@ impl<T: Cell> Open<'_, T> {
     }
 }
 
+/// `Ok` if columns are given for the channels and for no others, or none at all.
+pub(crate) fn check_channels(name: &'static str, are_given: [bool; 4], channels: usize) -> Result<()> {
+    let wrong = (0..4).find(|&c| are_given[c] != (c < channels));
+    let Some(c) = wrong.filter(|_| are_given.contains(&true)) else { return Ok(()) };
+    let found = if are_given[c] { "given" } else { "NULL" };
+    let expected = match channels {
+        1 => "one column".to_owned(),
+        _ => format!("{channels} columns, one for each channel"),
+    };
+    let message = format!("{} is {found}, expected {expected}", Name(name, Some(c)));
+    Err(Failure::new(airlight_status::Channels, message))
+}
+
 /// Room for a column of a block.
 fn room<'s, T: Cell>(rooms: &mut Rooms<'s>) -> &'s mut [T] {
     T::room(rooms).expect("every column that needs room has been counted")
@@ -254,6 +267,18 @@ impl Columns {
         width: usize,
     ) -> Result<Option<Output<f32>>> {
         (!column.data.is_null()).then(|| self.output(name, column, width)).transpose()
+    }
+
+    /// Where so many floats for each ray are written in each of so many channels; nowhere if no column is given.
+    pub(crate) fn channels(
+        &mut self,
+        name: &'static str,
+        given: [airlight_output; 4],
+        channels: usize,
+        width: usize,
+    ) -> Result<Vec<Output<f32>>> {
+        check_channels(name, given.map(|column| !column.data.is_null()), channels)?;
+        (0..channels).map(|c| self.output(Name(name, Some(c)), given[c], width)).collect()
     }
 
     /// Where an index for each ray is written, or nothing.

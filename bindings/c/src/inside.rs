@@ -24,7 +24,7 @@ pub(crate) unsafe extern "C" fn pdf(
     counts: *mut airlight_counts,
 ) -> airlight_status {
     // SAFETY: as the caller of the ABI promises.
-    report(|| unsafe { calls::at_distances(Sampler::pdf, options, batch, values, counts) })
+    report(|| unsafe { calls::pdf(options, batch, values, counts) })
 }
 
 /// [`airlight_cdf`](crate::airlight_cdf).
@@ -35,7 +35,7 @@ pub(crate) unsafe extern "C" fn cdf(
     counts: *mut airlight_counts,
 ) -> airlight_status {
     // SAFETY: as the caller of the ABI promises.
-    report(|| unsafe { calls::at_distances(Sampler::cdf, options, batch, values, counts) })
+    report(|| unsafe { calls::cdf(options, batch, values, counts) })
 }
 
 /// [`airlight_evaluate`](crate::airlight_evaluate).
@@ -46,7 +46,7 @@ pub(crate) unsafe extern "C" fn evaluate(
     counts: *mut airlight_counts,
 ) -> airlight_status {
     // SAFETY: as the caller of the ABI promises.
-    report(|| unsafe { calls::at_distances(Sampler::evaluate, options, batch, values, counts) })
+    report(|| unsafe { calls::evaluate(options, batch, values, counts) })
 }
 
 /// [`airlight_radiance`](crate::airlight_radiance).
@@ -112,7 +112,7 @@ pub(crate) unsafe extern "C" fn evaluate_one(
     integrand: *mut f32,
 ) -> airlight_status {
     // SAFETY: as the caller of the ABI promises.
-    report(|| unsafe { one::at_distance(Sampler::evaluate_one, options, scene, t, integrand) })
+    report(|| unsafe { one::evaluate_one(options, scene, t, integrand) })
 }
 
 /// [`airlight_radiance_one`](crate::airlight_radiance_one).

@@ -42,6 +42,7 @@ impl Failure {
 impl From<Error> for Failure {
     fn from(error: Error) -> Self {
         let status = match error {
+            Error::Channels { .. } => airlight_status::Channels,
             Error::Empty { .. } => airlight_status::Empty,
             Error::Length { .. } => airlight_status::Length,
             Error::Unavailable { .. } => airlight_status::Unavailable,
@@ -85,7 +86,7 @@ pub(crate) fn last_message() -> *const c_char {
 
 /// A status in words.
 pub(crate) fn describe(status: u32) -> &'static CStr {
-    const TEXTS: [(airlight_status, &CStr); 10] = [
+    const TEXTS: [(airlight_status, &CStr); 11] = [
         (airlight_status::Ok, c"done"),
         (airlight_status::Null, c"a pointer is NULL that must not be"),
         (airlight_status::StructSize, c"the first field of a struct is not its size"),
@@ -95,6 +96,7 @@ pub(crate) fn describe(status: u32) -> &'static CStr {
         (airlight_status::Empty, c"a table has no entry"),
         (airlight_status::Value, c"a number is out of its range"),
         (airlight_status::Unavailable, c"there is no such thing"),
+        (airlight_status::Channels, c"media have other numbers of channels than each other, or than there are columns"),
         (airlight_status::Panic, c"a defect of airlight"),
     ];
     let found = TEXTS.iter().find(|(known, _)| *known as u32 == status);

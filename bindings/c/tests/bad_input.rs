@@ -9,6 +9,9 @@ use host::{Column, PACKED, message};
 
 const RAYS: usize = 8;
 
+/// The first entry of a table for each of them.
+static ZEROS: [u32; RAYS] = [0; RAYS];
+
 /// A call that is in order, with structs to spoil.
 struct Call {
     options: airlight_options,
@@ -33,6 +36,7 @@ struct Memory {
 enum Function {
     Sample,
     Pdf,
+    Evaluate,
     Radiance,
     Choose,
 }
@@ -90,6 +94,7 @@ impl Call {
             match function {
                 Sample => airlight_sample(options, batch, &self.samples, counts),
                 Pdf => airlight_pdf(options, batch, &self.values, counts),
+                Evaluate => airlight_evaluate(options, batch, &self.values, counts),
                 Radiance => airlight_radiance(options, batch, &self.values, counts),
                 Choose => airlight_choose(options, batch, &self.choices, counts),
             }
@@ -116,7 +121,7 @@ fn refuses(function: Function, expected: airlight_status, named: &str, spoil: im
 
 #[test]
 fn calls_in_order_are_made() {
-    for function in [Sample, Pdf, Radiance, Choose] {
+    for function in [Sample, Pdf, Evaluate, Radiance, Choose] {
         let mut memory = Memory::new();
         let mut call = memory.call();
         assert_eq!(call.make(function, true), Ok, "{function:?} {}", message());
@@ -210,8 +215,10 @@ fn numbers_out_of_range_are_refused() {
     refuses(Choose, Value, "emitters.table[1].normal is 0", |c| (c.table[1].kind, c.emitters.table_count) = (1, 2));
     refuses(Sample, Value, "media.table[0].mu_s is -1", |c| c.fog.mu_s[0] = -1.0);
     refuses(Sample, Value, "media.table[0].channels is 2", |c| c.fog.channels = 2);
-    refuses(Sample, Value, "samples.weight[1] is given", |c| c.samples.weight[1] = c.values.value[0]);
-    refuses(Pdf, Value, "values.value[3] is given", |c| c.values.value[3] = c.samples.t);
+    refuses(Sample, Value, "emitters.table[0].cos_inner is 0.25", |c| {
+        (c.table[0].kind, c.table[0].direction[2]) = (2, 1.0);
+        (c.table[0].cos_outer, c.table[0].cos_inner) = (0.5, 0.25);
+    });
     refuses(Choose, Value, "emitters.index is given", |c| c.emitters.index.data = c.batch.t_min.data.cast());
     refuses(Choose, Value, "weights is -1", |c| {
         static NEGATIVE: [f32; 1] = [-1.0];
@@ -220,6 +227,62 @@ fn numbers_out_of_range_are_refused() {
     refuses(Sample, Empty, "emitters.table is empty", |c| c.emitters.table_count = 0);
     refuses(Radiance, Empty, "media.table is empty", |c| c.media.table_count = 0);
     refuses(Choose, Empty, "emitters.table is empty", |c| c.emitters.table_count = 0);
+}
+
+#[test]
+fn other_numbers_of_channels_are_refused() {
+    refuses(Sample, Channels, "samples.weight[1] is given, expected one column", |c| {
+        c.samples.weight[1] = c.values.value[0];
+    });
+    refuses(Pdf, Channels, "values.value[3] is given, expected one column", |c| c.values.value[3] = c.samples.t);
+    let expected = |name: &str| format!("{name}, expected 3 columns, one for each channel");
+    refuses(Sample, Channels, &expected("samples.weight[1] is NULL"), |c| c.fog.channels = 3);
+    refuses(Evaluate, Channels, &expected("values.value[1] is NULL"), |c| c.fog.channels = 3);
+    refuses(Radiance, Channels, &expected("values.value[3] is given"), |c| {
+        c.fog.channels = 3;
+        c.values.value = [c.samples.t, c.samples.pdf, c.samples.r, c.values.value[0]];
+    });
+    refuses(Pdf, Channels, "values.value[1] is given, expected one column", |c| {
+        c.fog.channels = 3;
+        c.values.value[1] = c.samples.t;
+    });
+    let columns = |c: &mut Call, channels: u32, given: usize| {
+        (c.media.table, c.media.channels) = (null(), channels);
+        c.media.mu_a[..given].fill(c.batch.t_min);
+        c.media.mu_s[..3].fill(c.batch.t_min);
+    };
+    refuses(Sample, Channels, &expected("media.mu_a[2] is NULL"), |c| columns(c, 3, 2));
+    refuses(Sample, Channels, &expected("media.mu_a[3] is given"), |c| columns(c, 3, 4));
+    refuses(Sample, Channels, "media.mu_s[1] is given, expected one column", |c| columns(c, 0, 1));
+    refuses(Sample, Value, "media.channels is 2", |c| columns(c, 2, 3));
+    refuses(Choose, Value, "media.channels is 5", |c| columns(c, 5, 3));
+    // Those of a table are of one kind.
+    const GREY: airlight_medium = airlight_medium { channels: 1, mu_a: [0.1; 4], mu_s: [0.1; 4], g: 0.0 };
+    static TABLE: [airlight_medium; 2] = [airlight_medium { channels: 3, ..GREY }, GREY];
+    for function in [Sample, Pdf, Evaluate, Radiance, Choose] {
+        refuses(function, Channels, "media.table[1] has 1 channel, expected 3", |c| {
+            (c.media.table, c.media.table_count, c.media.index.data) = (TABLE.as_ptr(), 2, ZEROS.as_ptr());
+            c.samples.weight[0].data = null_mut();
+            c.values.value[0].data = if function == Pdf { c.values.value[0].data } else { null_mut() };
+        });
+    }
+}
+
+#[test]
+fn spots_have_both_cosines() {
+    let columns = |c: &mut Call| {
+        (c.emitters.table, c.emitters.position, c.emitters.direction) = (null(), c.batch.origin, c.batch.direction);
+        (c.emitters.cos_outer, c.emitters.cos_inner) = (c.samples.u, c.batch.t_max);
+    };
+    const NONE: airlight_column = airlight_column { data: null(), stride: 0 };
+    refuses(Sample, Null, "emitters.cos_outer.data is NULL", |c| {
+        columns(c);
+        c.emitters.cos_outer = NONE;
+    });
+    refuses(Radiance, Null, "emitters.cos_inner.data is NULL", |c| {
+        columns(c);
+        c.emitters.cos_inner = NONE;
+    });
 }
 
 #[test]
@@ -281,11 +344,11 @@ fn one_ray_that_is_none_is_refused() {
 
 #[test]
 fn every_status_has_words() {
-    let mut texts: Vec<_> = (0..11)
+    let mut texts: Vec<_> = (0..12)
         // SAFETY: a C string that lives for ever.
         .map(|status| unsafe { core::ffi::CStr::from_ptr(airlight_status_string(status)) })
         .collect();
     texts.sort();
     texts.dedup();
-    assert_eq!(texts.len(), 11);
+    assert_eq!(texts.len(), 12);
 }

@@ -3,11 +3,13 @@
 mod host;
 
 use airlight::{
-    Backend, Emitter, Emitters, Error, Integral, Media, Medium, Nodes, Precision, Rays, Sampler, Samples, Strategy,
+    Backend, Counts, Emitter, Emitters, Error, Integral, Media, Medium, Nodes, Precision, Rays, Sampler, Samples,
+    Strategy,
 };
 use airlight_c::*;
+use core::array;
 use core::ptr::null;
-use host::{Column, Host, Layout, PACKED, result};
+use host::{Column, Host, LOOKS, Layout, PACKED, PLAIN, result};
 
 const LAYOUTS: [Layout; 5] = [
     PACKED,
@@ -57,7 +59,13 @@ fn lend(host: &Host, layout: Layout, from: From) -> Lent {
         From::Columns => {
             emitters.position = [at(6), at(7), at(8)];
             emitters.direction = [at(9), at(10), at(11)];
-            (media.mu_a[0], media.mu_s[0], media.g) = (at(14), at(15), at(16));
+            if host.look.has_spots {
+                (emitters.cos_outer, emitters.cos_inner) = (at(15), at(16));
+            }
+            for c in 0..host.look.channels {
+                (media.mu_a[c], media.mu_s[c]) = (at(17 + c), at(21 + c));
+            }
+            (media.g, media.channels) = (at(14), host.look.channels as u32);
         }
     }
     let batch = airlight_batch {
@@ -80,22 +88,32 @@ struct Known<'a> {
     media: Media<'a>,
 }
 
-/// Columns of three coordinates.
-fn three(columns: &[Vec<f32>; 3]) -> [&[f32]; 3] {
-    columns.each_ref().map(|column| &column[..])
+/// The first columns.
+fn first<const C: usize>(columns: &[Vec<f32>]) -> [&[f32]; C] {
+    array::from_fn(|c| &columns[c][..])
 }
 
 /// Has `call` make a call from Rust.
 fn known<R>(host: &Host, from: From, call: impl FnOnce(&Known<'_>) -> Result<R, Error>) -> R {
     let emitters: Vec<Emitter> = host.emitters.iter().map(|e| emitter(e).unwrap()).collect();
-    let media: Vec<Medium> = host.media.iter().map(|m| Medium::new(m.mu_a[0], m.mu_s[0], m.g).unwrap()).collect();
-    let rays = Rays::new(three(&host.origin), three(&host.direction), &host.t_min, &host.t_max);
+    let media: Vec<Medium> = host.media.iter().map(|m| medium(m).unwrap()).collect();
+    let rays = Rays::new(first(&host.origin), first(&host.direction), &host.t_min, &host.t_max);
     let (emitters, media) = match from {
         From::One => (Emitters::one(emitters[0]), Media::one(media[0])),
         From::Table => (Emitters::table(&emitters, &host.index), Media::table(&media, &host.index)),
         From::Columns => {
-            let media = Media::each(&host.mu_a, &host.mu_s, &host.g);
-            (Emitters::each(three(&host.position), three(&host.normal)), media)
+            let (position, normal, [cos_outer, cos_inner]) =
+                (first(&host.position), first(&host.normal), &host.cosines);
+            let emitters = match host.look.has_spots {
+                false => Emitters::each(position, normal),
+                true => Emitters::each_spot(position, normal, cos_outer, cos_inner),
+            };
+            let media = match host.look.channels {
+                1 => Media::each(&host.mu_a[0], &host.mu_s[0], &host.g),
+                3 => Media::each_coloured::<3>(first(&host.mu_a), first(&host.mu_s), &host.g),
+                _ => Media::each_coloured::<4>(first(&host.mu_a), first(&host.mu_s), &host.g),
+            };
+            (emitters, media)
         }
     };
     call(&Known { rays, emitters, media }).unwrap()
@@ -104,8 +122,60 @@ fn known<R>(host: &Host, from: From, call: impl FnOnce(&Known<'_>) -> Result<R, 
 fn emitter(emitter: &airlight_emitter) -> Result<Emitter, Error> {
     match emitter.kind {
         0 => Emitter::point(emitter.position),
-        _ => Emitter::point_normal(emitter.position, emitter.direction),
+        1 => Emitter::point_normal(emitter.position, emitter.direction),
+        _ => Emitter::spot(emitter.position, emitter.direction, emitter.cos_outer, emitter.cos_inner),
     }
+}
+
+fn medium(medium: &airlight_medium) -> Result<Medium, Error> {
+    let airlight_medium { channels, mu_a: [a0, a1, a2, a3], mu_s: [s0, s1, s2, s3], g } = *medium;
+    match channels {
+        1 => Medium::new(a0, s0, g),
+        3 => Medium::coloured([a0, a1, a2], [s0, s1, s2], g),
+        _ => Medium::coloured([a0, a1, a2, a3], [s0, s1, s2, s3], g),
+    }
+}
+
+/// What Rust samples: t, pdf, r, and the weights of the channels.
+fn samples_of_rust(host: &Host, from: From, strategy: Strategy) -> (Vec<Vec<f32>>, Counts) {
+    let mut columns = vec![vec![0.0; host.u.len()]; 3 + host.look.channels];
+    let counts = known(host, from, |Known { rays, emitters, media }| {
+        let [t, pdf, r, weights @ ..] = &mut columns[..] else { unreachable!() };
+        let mut out = Samples::new(t, pdf).r(r);
+        out.weights.iter_mut().zip(weights).for_each(|(out, weight)| *out = Some(weight));
+        Sampler::new(strategy).sample(rays, emitters, media, &host.u, &mut out)
+    });
+    (columns, counts)
+}
+
+/// The integrands of the channels at the distances `host.u`.
+fn integrands_of_rust(host: &Host, from: From) -> Vec<Vec<f32>> {
+    let mut columns = vec![vec![0.0; host.u.len()]; host.look.channels];
+    known(host, from, |Known { rays, emitters, media }| {
+        let sampler = Sampler::new(Strategy::default());
+        match &mut columns[..] {
+            [grey] => sampler.evaluate(rays, emitters, media, &host.u, grey),
+            [a, b, c] => sampler.evaluate_coloured(rays, emitters, media, &host.u, [a, b, c]),
+            [a, b, c, d] => sampler.evaluate_coloured(rays, emitters, media, &host.u, [a, b, c, d]),
+            _ => unreachable!(),
+        }
+    });
+    columns
+}
+
+/// The radiances of the channels.
+fn radiances_of_rust(host: &Host, from: From, nodes: Nodes) -> Vec<Vec<f32>> {
+    let mut columns = vec![vec![0.0; host.rays()]; host.look.channels];
+    known(host, from, |Known { rays, emitters, media }| {
+        let integral = Integral::new(nodes);
+        match &mut columns[..] {
+            [grey] => integral.radiance(rays, emitters, media, grey),
+            [a, b, c] => integral.radiance_coloured(rays, emitters, media, [a, b, c]),
+            [a, b, c, d] => integral.radiance_coloured(rays, emitters, media, [a, b, c, d]),
+            _ => unreachable!(),
+        }
+    });
+    columns
 }
 
 /// Every way of calling: `(layout, from, options)`.
@@ -119,8 +189,9 @@ fn ways() -> impl Iterator<Item = (Layout, From, airlight_options)> {
 
 #[test]
 fn samples_are_those_of_rust() {
-    for (rays, per_ray) in [(10_000, 1), (1, 1), (0, 1), (3_000, 3), (2, 5_000), (17, 8)] {
-        let host = Host::new(rays as u64, rays, per_ray);
+    let sizes = [(10_000, 1), (1, 1), (0, 1), (3_000, 3), (2, 5_000), (17, 8)];
+    for (look, (rays, per_ray)) in LOOKS.into_iter().flat_map(|look| sizes.map(|size| (look, size))) {
+        let host = Host::new(look, rays as u64, rays, per_ray);
         let values = rays * per_ray;
         for (number, &strategy) in (1..).zip(Strategy::ALL) {
             if rays > 100 && number % 3 != 1 {
@@ -128,28 +199,23 @@ fn samples_are_those_of_rust() {
             }
             for (layout, from, options) in ways() {
                 let options = airlight_options { strategy: number, ..options };
-                let mut expected = [const { Vec::new() }; 4].map(|_: Vec<f32>| vec![0.0; values]);
-                let [t, pdf, weight, r] = &mut expected;
-                let counts = known(&host, from, |Known { rays, emitters, media }| {
-                    let mut out = Samples::new(t, pdf).weight(weight).r(r);
-                    Sampler::new(strategy).sample(rays, emitters, media, &host.u, &mut out)
-                });
+                let (expected, counts) = samples_of_rust(&host, from, strategy);
 
                 // Elements of several numbers need a larger stride. Some columns are packed where others are not.
                 let stride = if per_ray > 8 { layout.stride * per_ray } else { layout.stride };
                 let lent = lend(&host, Layout { stride, ..layout }, from);
                 let layouts = [Layout { stride, ..layout }, PACKED];
                 let mut u = Column::of(layouts[(number + options.threads) as usize % 2], per_ray, &bits(&host.u));
-                let mut out = [0, 1, 0, 1].map(|i| Column::new(layouts[i], rays, per_ray));
+                let mut out: Vec<_> = (0..expected.len()).map(|i| Column::new(layouts[i % 2], rays, per_ray)).collect();
                 let mut samples = airlight_samples { per_ray, u: u.input(), ..Default::default() };
-                (samples.t, samples.pdf) = (out[0].output(), out[1].output());
-                (samples.weight[0], samples.r) = (out[2].output(), out[3].output());
+                (samples.t, samples.pdf, samples.r) = (out[0].output(), out[1].output(), out[2].output());
+                samples.weight.iter_mut().zip(&mut out[3..]).for_each(|(weight, out)| *weight = out.output());
                 let mut found = airlight_counts::default();
                 // SAFETY: the columns have as many elements as the batch has rays.
                 let status = unsafe { airlight_sample(&options, &lent.batch, &samples, &mut found) };
                 result(status).unwrap();
                 for (out, expected) in out.iter_mut().zip(&expected) {
-                    assert_eq!(out.bits(values), bits(expected), "{strategy} {rays} {per_ray} {layout:?} {from:?}");
+                    assert_eq!(out.bits(values), bits(expected), "{look:?} {strategy} {rays} {layout:?} {from:?}");
                 }
                 let numbers = [found.sampled, found.empty, found.invalid, found.bisected];
                 assert_eq!(numbers, [counts.sampled, counts.empty, counts.invalid, counts.bisected]);
@@ -160,7 +226,7 @@ fn samples_are_those_of_rust() {
 
 #[test]
 fn precision_and_backend_are_those_asked_for() {
-    let host = Host::new(3, 5_000, 1);
+    let host = Host::new(PLAIN, 3, 5_000, 1);
     let mut different = Vec::new();
     for backend in Backend::available() {
         let number = ["portable", "avx2", "avx512"].iter().position(|&name| name == backend.name()).unwrap() as u32 + 1;
@@ -193,7 +259,7 @@ fn precision_and_backend_are_those_asked_for() {
 
 #[test]
 fn what_is_not_wanted_is_not_missed() {
-    let host = Host::new(4, 5_000, 1);
+    let host = Host::new(PLAIN, 4, 5_000, 1);
     let mut expected = [vec![0.0; 5_000], vec![0.0; 5_000]];
     let [weight, r] = &mut expected;
     let mut none = [vec![0.0; 5_000], vec![0.0; 5_000]];
@@ -216,7 +282,7 @@ fn what_is_not_wanted_is_not_missed() {
 
 #[test]
 fn columns_that_are_not_given_are_zeros() {
-    let mut host = Host::new(5, 5_000, 1);
+    let mut host = Host::new(PLAIN, 5, 5_000, 1);
     host.t_min.fill(0.0);
     host.g.fill(0.0);
     host.normal.iter_mut().for_each(|column| column.fill(0.0));
@@ -239,63 +305,72 @@ fn columns_that_are_not_given_are_zeros() {
 
 #[test]
 fn what_is_known_at_distances_is_that_of_rust() {
-    let per_ray = 2;
-    let mut host = Host::new(6, 5_000, per_ray);
-    host.u.iter_mut().for_each(|t| *t *= 5.0);
-    type Rust =
-        fn(&Sampler, &Rays<'_>, &Emitters<'_>, &Media<'_>, &[f32], &mut [f32]) -> Result<airlight::Counts, Error>;
+    type Rust = fn(&Sampler, &Rays<'_>, &Emitters<'_>, &Media<'_>, &[f32], &mut [f32]) -> Result<Counts, Error>;
     type C = unsafe extern "C" fn(
         *const airlight_options,
         *const airlight_batch,
         *const airlight_values,
         *mut airlight_counts,
     ) -> airlight_status;
-    let calls: [(Rust, C); 3] =
-        [(Sampler::pdf, airlight_pdf), (Sampler::cdf, airlight_cdf), (Sampler::evaluate, airlight_evaluate)];
-    for (rust, c) in calls {
+    // The integrand is known in each channel.
+    let calls: [(Option<Rust>, C); 3] =
+        [(Some(Sampler::pdf), airlight_pdf), (Some(Sampler::cdf), airlight_cdf), (None, airlight_evaluate)];
+    for (look, (rust, c)) in LOOKS.into_iter().flat_map(|look| calls.map(|call| (look, call))) {
+        let per_ray = 2;
+        let mut host = Host::new(look, 6, 5_000, per_ray);
+        host.u.iter_mut().for_each(|t| *t *= 5.0);
         for (layout, from, options) in ways() {
-            let mut expected = vec![0.0; 10_000];
-            known(&host, from, |Known { rays, emitters, media }| {
-                rust(&Sampler::new(Strategy::default()), rays, emitters, media, &host.u, &mut expected)
-            });
+            let expected = rust.map_or_else(
+                || integrands_of_rust(&host, from),
+                |rust| {
+                    let mut expected = vec![0.0; 10_000];
+                    known(&host, from, |Known { rays, emitters, media }| {
+                        rust(&Sampler::new(Strategy::default()), rays, emitters, media, &host.u, &mut expected)
+                    });
+                    vec![expected]
+                },
+            );
             let lent = lend(&host, layout, from);
-            let (mut t, mut out) = (Column::of(layout, per_ray, &bits(&host.u)), Column::new(layout, 5_000, per_ray));
+            let mut t = Column::of(layout, per_ray, &bits(&host.u));
+            let mut out: Vec<_> = expected.iter().map(|_| Column::new(layout, 5_000, per_ray)).collect();
             let mut values = airlight_values { per_ray, t: t.input(), ..Default::default() };
-            values.value[0] = out.output();
+            values.value.iter_mut().zip(&mut out).for_each(|(value, out)| *value = out.output());
             // SAFETY: the columns have as many elements as the batch has rays.
             result(unsafe { c(&options, &lent.batch, &values, core::ptr::null_mut()) }).unwrap();
-            assert_eq!(out.bits(10_000), bits(&expected), "{layout:?} {from:?}");
+            for (out, expected) in out.iter_mut().zip(&expected) {
+                assert_eq!(out.bits(10_000), bits(expected), "{look:?} {layout:?} {from:?}");
+            }
         }
     }
 }
 
 #[test]
 fn radiance_is_that_of_rust_with_every_number_of_nodes() {
-    let host = Host::new(7, 5_000, 1);
-    for (nodes, count) in Nodes::ALL.iter().map(|&nodes| (nodes, nodes.count() as u32)).chain([(Nodes::Eight, 0)]) {
+    let numbers = Nodes::ALL.iter().map(|&nodes| (nodes, nodes.count() as u32)).chain([(Nodes::Eight, 0)]);
+    for (look, (nodes, count)) in LOOKS.into_iter().flat_map(|look| numbers.clone().map(move |number| (look, number))) {
+        let host = Host::new(look, 7, 5_000, 1);
         for (layout, from, options) in ways() {
-            let mut expected = vec![0.0; 5_000];
-            known(&host, from, |Known { rays, emitters, media }| {
-                Integral::new(nodes).radiance(rays, emitters, media, &mut expected)
-            });
+            let expected = radiances_of_rust(&host, from, nodes);
             let lent = lend(&host, layout, from);
-            let mut out = Column::new(layout, 5_000, 1);
+            let mut out: Vec<_> = expected.iter().map(|_| Column::new(layout, 5_000, 1)).collect();
             let mut values = airlight_values::default();
-            values.value[0] = out.output();
+            values.value.iter_mut().zip(&mut out).for_each(|(value, out)| *value = out.output());
             let options = airlight_options { nodes: count, ..options };
             // SAFETY: the columns have as many elements as the batch has rays.
             result(unsafe { airlight_radiance(&options, &lent.batch, &values, core::ptr::null_mut()) }).unwrap();
-            assert_eq!(out.bits(5_000), bits(&expected));
+            for (out, expected) in out.iter_mut().zip(&expected) {
+                assert_eq!(out.bits(5_000), bits(expected), "{look:?} {layout:?} {from:?}");
+            }
         }
     }
 }
 
 #[test]
 fn choices_are_those_of_rust() {
-    let host = Host::new(8, 5_000, 1);
     let weights = [1.0, 20.0, 3.0];
-    let table: Vec<Emitter> = host.emitters.iter().map(|e| emitter(e).unwrap()).collect();
-    for (layout, from, options) in ways() {
+    for (look, (layout, from, options)) in LOOKS.into_iter().flat_map(|look| ways().map(move |way| (look, way))) {
+        let host = Host::new(look, 8, 5_000, 1);
+        let table: Vec<Emitter> = host.emitters.iter().map(|e| emitter(e).unwrap()).collect();
         let (mut index, mut probability) = (vec![0; 5_000], vec![0.0; 5_000]);
         known(&host, from, |Known { rays, media, .. }| {
             let (index, probability) = (&mut index, &mut probability);
@@ -321,39 +396,48 @@ fn choices_are_those_of_rust() {
     }
 }
 
+/// The numbers of a ray: those of the columns that there are, then `rest`.
+fn at_ray<const N: usize>(columns: &[Vec<f32>], ray: usize, rest: f32) -> [u32; N] {
+    array::from_fn(|c| columns.get(c).map_or(rest, |column| column[ray]).to_bits())
+}
+
 #[test]
 fn one_ray_is_a_batch_of_one() {
-    let host = Host::new(9, 100, 1);
-    for i in (0..100).filter(|i| i % 17 != 5) {
-        let at = |columns: &[Vec<f32>; 3]| columns.each_ref().map(|column| column[i]);
-        let (emitter, medium) = (host.emitters[i % 3], host.media[i % 3]);
-        let (t_min, t_max) = (host.t_min[i], host.t_max[i]);
-        let ray = airlight_ray { origin: at(&host.origin), direction: at(&host.direction), t_min, t_max };
-        let scene = airlight_scene { ray, emitter, medium, ..Default::default() };
-        let ray = airlight::Ray::new(ray.origin, ray.direction, t_min, t_max).unwrap();
-        let emitter = self::emitter(&emitter).unwrap();
-        let medium = Medium::new(medium.mu_a[0], medium.mu_s[0], medium.g).unwrap();
-        let sampler = Sampler::new(Strategy::default());
-        let (mut sample, mut value) = (airlight_one_sample::default(), [0.0; 4]);
-        // SAFETY: pointers to what they are said to be.
-        unsafe {
-            result(airlight_sample_one(null(), &scene, host.u[i], &mut sample)).unwrap();
-            result(airlight_pdf_one(null(), &scene, sample.t, &mut value[0])).unwrap();
-            result(airlight_cdf_one(null(), &scene, sample.t, &mut value[1])).unwrap();
-            result(airlight_evaluate_one(null(), &scene, sample.t, &mut value[2])).unwrap();
-            result(airlight_radiance_one(null(), &scene, &mut value[3])).unwrap();
+    for look in LOOKS {
+        let mut host = Host::new(look, 9, 100, 1);
+        host.index = (0..100).map(|i| i % 3).collect();
+        let (samples, _) = samples_of_rust(&host, From::Table, Strategy::default());
+        let radiances = radiances_of_rust(&host, From::Table, Nodes::Eight);
+        host.u.clone_from(&samples[0]);
+        let integrands = integrands_of_rust(&host, From::Table);
+        let u = Host::new(look, 9, 100, 1).u;
+        for i in (0..100).filter(|i| i % 17 != 5) {
+            let at = |columns: &[Vec<f32>; 3]| columns.each_ref().map(|column| column[i]);
+            let (emitter, medium) = (host.emitters[i % 3], host.media[i % 3]);
+            let (t_min, t_max) = (host.t_min[i], host.t_max[i]);
+            let ray = airlight_ray { origin: at(&host.origin), direction: at(&host.direction), t_min, t_max };
+            let scene = airlight_scene { ray, emitter, medium, ..Default::default() };
+            let (mut sample, mut pdf, mut cdf) = (airlight_one_sample::default(), 0.0, 0.0);
+            let (mut integrand, mut radiance) = ([7.0; 5], [7.0; 5]);
+            // SAFETY: pointers to what they are said to be.
+            unsafe {
+                result(airlight_sample_one(null(), &scene, u[i], &mut sample)).unwrap();
+                result(airlight_pdf_one(null(), &scene, sample.t, &mut pdf)).unwrap();
+                result(airlight_cdf_one(null(), &scene, sample.t, &mut cdf)).unwrap();
+                result(airlight_evaluate_one(null(), &scene, sample.t, integrand.as_mut_ptr())).unwrap();
+                result(airlight_radiance_one(null(), &scene, radiance.as_mut_ptr())).unwrap();
+            }
+            let found = [sample.t, sample.pdf, sample.r].map(f32::to_bits);
+            assert_eq!(found, at_ray(&samples[..3], i, 0.0), "{look:?}");
+            assert_eq!(sample.weight.map(f32::to_bits), at_ray(&samples[3..], i, 0.0), "{look:?}");
+            assert_eq!(integrand.map(f32::to_bits), at_ray(&integrands, i, 7.0), "{look:?}");
+            assert_eq!(radiance.map(f32::to_bits), at_ray(&radiances, i, 7.0), "{look:?}");
+            let ray = airlight::Ray::new(ray.origin, ray.direction, t_min, t_max).unwrap();
+            let (emitter, medium) = (self::emitter(&emitter).unwrap(), self::medium(&medium).unwrap());
+            let sampler = Sampler::new(Strategy::default());
+            assert_eq!(pdf, sampler.pdf_one(&ray, &emitter, &medium, sample.t));
+            assert_eq!(cdf, sampler.cdf_one(&ray, &emitter, &medium, sample.t));
         }
-        let expected = sampler.sample_one(&ray, &emitter, &medium, host.u[i]);
-        let numbers = expected.map_or([0.0; 4], |s| [s.t, s.pdf, s.weight, s.r]);
-        assert_eq!([sample.t, sample.pdf, sample.weight[0], sample.r], numbers);
-        let integral = Integral::new(Nodes::Eight);
-        let expected = [
-            sampler.pdf_one(&ray, &emitter, &medium, sample.t),
-            sampler.cdf_one(&ray, &emitter, &medium, sample.t),
-            sampler.evaluate_one(&ray, &emitter, &medium, sample.t),
-            integral.radiance_one(&ray, &emitter, &medium),
-        ];
-        assert_eq!(value, expected);
     }
 }
 

@@ -39,14 +39,14 @@ impl Fuzz {
     /// A column of so many bytes an element, or NULL; only a count that does not fit may lead out of the memory, and then
     /// the call is refused.
     fn column(&mut self, count: usize, element: usize) -> (*mut u8, usize) {
-        if self.rng.u32(0..100) == 0 {
+        if self.rng.u32(0..400) == 0 {
             return (core::ptr::null_mut(), self.number(&[0, 4]));
         }
         let bytes = FLOATS * 4;
         let most = (bytes / 2).checked_div(count).unwrap_or(64).max(element);
-        let stride = match self.rng.u32(0..8) {
-            0..4 => 0,
-            4 => self.rng.usize(0..8).min(most),
+        let stride = match self.rng.u32(0..64) {
+            0..32 => 0,
+            32 => self.rng.usize(0..8).min(most),
             _ => self.rng.usize(element.min(most)..=most.min(element + 60).max(element.min(most))),
         };
         let step = stride.max(element);
@@ -75,6 +75,20 @@ impl Fuzz {
         airlight_index_column { data: data.cast(), stride }
     }
 
+    /// So many channels, or rarely others.
+    fn channels(&mut self, likely: usize) -> u32 {
+        if likely == 1 && self.rng.bool() { 0 } else { self.number(&[likely]) as u32 }
+    }
+
+    /// Columns of so many channels, or rarely of others.
+    fn outputs(&mut self, channels: usize, count: usize, width: usize) -> [airlight_output; 4] {
+        let channels = self.channels(channels).max(1) as usize;
+        // SAFETY: any bits are a value of the struct.
+        let mut columns: [airlight_output; 4] = unsafe { zeroed() };
+        columns.iter_mut().take(channels).for_each(|column| *column = self.output(count, width));
+        columns
+    }
+
     fn size<T>(&mut self) -> usize {
         self.number(&[size_of::<T>()])
     }
@@ -83,6 +97,7 @@ impl Fuzz {
     fn call(&mut self) -> airlight_status {
         let count = self.number(&[1, 2, 7, 16, 33, 300]);
         let per_ray = self.number(&[1, 1, 1, 2, 5]);
+        let channels = [1, 1, 3, 4][self.rng.usize(0..4)];
         let numbers: Vec<u32> = (0..4).map(|_| self.rng.u32(..)).collect();
         let options = airlight_options {
             struct_size: self.size::<airlight_options>(),
@@ -98,14 +113,14 @@ impl Fuzz {
         let mut medium_table = [const { airlight_medium { channels: 0, mu_a: [0.0; 4], mu_s: [0.0; 4], g: 0.0 } }; 3];
         for i in 0..3 {
             emitter_table[i] = airlight_emitter {
-                kind: self.number(&[0, 0, 1]) as u32,
+                kind: self.number(&[0, 0, 1, 2]) as u32,
                 position: [0; 3].map(|_| self.float()),
                 direction: [0.0, 0.0, 1.0],
-                cos_outer: self.float(),
-                cos_inner: self.float(),
+                cos_outer: self.float() * 0.5,
+                cos_inner: self.float() * 0.5 + 0.5,
             };
             let (mu_a, mu_s) = ([0; 4].map(|_| self.float()), [0; 4].map(|_| self.float()));
-            medium_table[i] = airlight_medium { channels: self.number(&[0, 1]) as u32, mu_a, mu_s, g: self.float() };
+            medium_table[i] = airlight_medium { channels: self.channels(channels), mu_a, mu_s, g: self.float() };
         }
         // SAFETY: any bits are a value of the structs.
         let (mut emitters, mut media): (airlight_emitters, airlight_media) = unsafe { (zeroed(), zeroed()) };
@@ -117,16 +132,18 @@ impl Fuzz {
         } else {
             emitters.position = [0; 3].map(|_| self.input(count, 1));
             emitters.direction = [0; 3].map(|_| self.input(count, 1));
-            if self.rng.u32(0..8) == 0 {
-                emitters.cos_outer = self.input(count, 1);
+            if self.rng.bool() {
+                (emitters.cos_outer, emitters.cos_inner) = (self.input(count, 1), self.input(count, 1));
             }
         }
         if !numbers[1].is_multiple_of(3) {
             (media.table, media.table_count) = (medium_table.as_ptr(), (numbers[1] / 3 % 32).min(3) as usize);
         } else {
-            media.channels = self.number(&[0, 1, 1, 1, 1, 1, 1, 3]) as u32;
-            (media.mu_a[0], media.mu_s[0], media.g) =
-                (self.input(count, 1), self.input(count, 1), self.input(count, 1));
+            media.channels = self.channels(channels);
+            for c in 0..self.channels(channels).min(4) as usize {
+                (media.mu_a[c], media.mu_s[c]) = (self.input(count, 1), self.input(count, 1));
+            }
+            media.g = self.input(count, 1);
             media.index.data = core::ptr::null();
         }
         let batch = airlight_batch {
@@ -142,14 +159,14 @@ impl Fuzz {
         // SAFETY: any bits are a value of the struct.
         let mut counts = airlight_counts { struct_size: self.size::<airlight_counts>(), ..unsafe { zeroed() } };
         let output = |fuzz: &mut Self, width| fuzz.output(count, width);
-        // SAFETY: any bits are a value of the struct.
-        let none: airlight_output = unsafe { zeroed() };
+        // A density has one value.
+        let value_channels = if numbers[2] % 7 == 2 { 1 } else { channels };
         let values = airlight_values {
             struct_size: self.size::<airlight_values>(),
             per_ray,
             t: self.input(count, per_ray),
             // `airlight_radiance` has one, whatever `per_ray` says.
-            value: [output(self, per_ray.max(1)), none, none, none],
+            value: self.outputs(value_channels, count, per_ray.max(1)),
         };
         // SAFETY: columns lie within the memory or are too long for any, tables are as long as said.
         unsafe {
@@ -161,7 +178,7 @@ impl Fuzz {
                         u: self.input(count, per_ray),
                         t: output(self, per_ray),
                         pdf: output(self, per_ray),
-                        weight: [output(self, per_ray), none, none, none],
+                        weight: self.outputs(channels, count, per_ray),
                         r: output(self, per_ray),
                     };
                     airlight_sample(&options, &batch, &samples, &mut counts)
@@ -210,7 +227,7 @@ fn any_structs_give_a_status() {
     let calls = number("AIRLIGHT_FUZZ").unwrap_or(100_000);
     println!("AIRLIGHT_SEED={seed} AIRLIGHT_FUZZ={calls}");
     let mut fuzz = Fuzz { rng: fastrand::Rng::with_seed(seed), memory: vec![0xaa; FLOATS * 4 + 2 * FENCE] };
-    let mut found = [0_u64; 10];
+    let mut found = [0_u64; 11];
     for i in 0..calls {
         if i % 256 == 0 {
             let middle = FENCE..FENCE + FLOATS * 4;
@@ -231,6 +248,12 @@ fn any_structs_give_a_status() {
         assert_eq!(written, None, "call {i} of seed {seed} wrote outside of the memory");
     }
     println!("statuses: {found:?}");
-    let common = [airlight_status::Ok, airlight_status::Null, airlight_status::StructSize, airlight_status::Overlap];
+    let common = [
+        airlight_status::Ok,
+        airlight_status::Null,
+        airlight_status::StructSize,
+        airlight_status::Overlap,
+        airlight_status::Channels,
+    ];
     assert!(common.iter().all(|&status| found[status as usize] > calls / 1000), "{found:?} of seed {seed}");
 }

@@ -93,6 +93,36 @@ int main() {
     (void)airlight::radiance(options, rays, {lamps, chosen}, media, {value}, &counts);
     good = good && counts.sampled == n;
 
+    // Spots in columns and one for all, media of three channels in columns and one for all.
+    const std::vector<float> zero(n), down(n, -1.0f), up(n, 1.0f), two(n, 2.0f), outer(n, 0.5f), inner(n, 0.7f);
+    const std::vector<float> dense(n, 0.3f), thin(n, 0.2f);
+    airlight::Emitters spots;
+    spots.position = {zero, up, two}, spots.direction = {zero, down, zero};
+    spots.cos_outer = outer, spots.cos_inner = inner;
+    const airlight_emitter spot = airlight::spot({0, 1, 2}, {0, -1, 0}, 0.5f, 0.7f);
+    airlight::Media air;
+    air.channels = 3;
+    air.mu_a = {mu, thin, dense}, air.mu_s = {dense, thin, mu};
+    const airlight_medium one_air = airlight::medium({0.1f, 0.2f, 0.3f}, {0.3f, 0.2f, 0.1f}, 0.0f);
+    const Column u = in(&Item::u, 0);
+    std::vector<std::vector<float>> color(3, zero), same(3, zero);
+    airlight::Samples of_colors;
+    of_colors.u = u, of_colors.weight = {color[0], color[1], color[2]};
+    (void)airlight::sample(options, rays, spots, air, of_colors);
+    of_colors.weight = {same[0], same[1], same[2]};
+    (void)airlight::sample(options, rays, spot, one_air, of_colors);
+    (void)airlight::sample_one(options, ray, spot, one_air, 0.25f, sample);
+    for (int c = 0; c < 3; ++c) good = good && color[c] == same[c] && sample.weight[c] == color[c][n - 1];
+    good = good && sample.weight[0] > sample.weight[1] && sample.weight[2] > 0 && sample.weight[3] == 0;
+    std::array<float, 3> colors = {};
+    const std::vector<float> at(n, sample.t);
+    (void)airlight::evaluate(options, rays, spots, air, at, {color[0], color[1], color[2]});
+    (void)airlight::evaluate_one(options, ray, spot, one_air, sample.t, colors.data());
+    for (int c = 0; c < 3; ++c) good = good && colors[c] == color[c][n - 1] && colors[c] > 0;
+    (void)airlight::radiance(options, rays, spots, air, {color[0], color[1], color[2]});
+    (void)airlight::radiance_one(options, ray, spot, one_air, colors.data());
+    for (int c = 0; c < 3; ++c) good = good && colors[c] == color[c][n - 1] && colors[c] > 0;
+
     good = good && throws("u has 9999 elements, expected 10000", [&] {
         airlight::Samples wrong = samples;
         wrong.u.size -= 1;
@@ -113,12 +143,13 @@ int main() {
         wrong.strategy = static_cast<airlight_strategy>(99);
         return airlight::sample(wrong, rays, lamps[0], fog, samples);
     });
-    good = good && throws("there are no kernels for spots", [&] {
-        return airlight::radiance(options, rays, airlight::spot({0, 1, 2}, {0, -1, 0}, 0.5f, 0.7f), fog, {value});
-    });
-    good = good && throws("there are no kernels for coloured media", [&] {
-        const airlight_medium air = airlight::medium({0.1f, 0.2f, 0.3f}, {0.3f, 0.2f, 0.1f}, 0.0f);
-        return airlight::radiance_one(options, ray, lamps[0], air, &one);
+    good = good && throws("values.value[1] is NULL, expected 3 columns, one for each channel",
+                          [&] { return airlight::radiance(options, rays, spots, air, {value}); });
+    good = good && throws("weight has 2 numbers for each ray, expected 1", [&] {
+        airlight::Samples wrong;
+        wrong.u = u;
+        for (int c = 0; c < 3; ++c) wrong.weight[c] = c < 2 ? Output(color[c]) : samples.t;
+        return airlight::sample(options, rays, spots, air, wrong);
     });
     std::puts(good ? "good" : "WRONG");
     return good ? 0 : 1;

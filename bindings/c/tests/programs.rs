@@ -69,6 +69,24 @@ fn build(language: Language, source: &str, flags: &[&str], folder: &TempDir) -> 
     Some(program)
 }
 
+/// Has a compiler read a source; nothing is built.
+fn check(language: Language, source: PathBuf, flags: &[&str]) {
+    if let Some(compiler) = language.compiler() {
+        let mut command = Command::new(compiler);
+        command.args(WARNINGS).args(flags).arg("-fsyntax-only").arg("-I").arg(file("include"));
+        succeed(command.arg(source));
+    }
+}
+
+/// The first code of a language in a document, as a file.
+fn code(document: &str, language: &str, folder: &TempDir) -> PathBuf {
+    let text = std::fs::read_to_string(file(document)).unwrap();
+    let (_, code) = text.split_once(&format!("```{language}\n")).unwrap();
+    let source = folder.path().join(format!("code-{language}.{language}"));
+    std::fs::write(&source, code.split_once("```").unwrap().0).unwrap();
+    source
+}
+
 /// Runs a program with less work under valgrind, if that is there: no error, and nothing is lost.
 ///
 /// It does not know AVX-512 and says to programs that this CPU has none.
@@ -92,13 +110,6 @@ fn the_headers_are_clean() {
         let source = folder.path().join(format!("{}.{extension}", header.replace('.', "-")));
         std::fs::write(&source, format!("#include \"{header}\"\n#include \"{header}\"\n")).unwrap();
         source
-    };
-    let check = |language: Language, source: PathBuf, flags: &[&str]| {
-        if let Some(compiler) = language.compiler() {
-            let mut command = Command::new(compiler);
-            command.args(WARNINGS).args(flags).arg("-fsyntax-only").arg("-I").arg(file("include"));
-            succeed(command.arg(source));
-        }
     };
     for standard in ["-std=c99", "-std=c11", "-std=c17"] {
         check(Language::C, include("airlight.h", "c"), &[standard]);
@@ -136,6 +147,9 @@ fn a_renderer_in_cpp_draws_the_fog() {
         let at = |x: usize, y: usize| <[u8; 3]>::try_from(&pixels[(y * 256 + x) * 3..][..3]).unwrap();
         // The lamp's glow, the red wall, the green wall, and the shadow on the floor beside light.
         let (glow, left, right, shadow, floor) = (at(128, 45), at(8, 128), at(247, 128), at(150, 240), at(60, 235));
+        // The fog in the cone scatters blue most; outside of it nothing does.
+        let (fog, dark) = (at(128, 85), at(30, 20));
+        assert!(fog[2] > fog[0] + 5 && dark == [0; 3], "{fog:?} {dark:?}");
         assert!(glow[0] > 240 && left[0] > left[1] + 20 && right[1] > right[0] + 20, "{glow:?} {left:?} {right:?}");
         assert!(shadow[0] + 20 < floor[0], "{shadow:?} {floor:?}");
         check_memory(&program, &[folder.path().join("small.ppm").to_str().unwrap(), "40"]);
@@ -165,14 +179,19 @@ fn no_environment_changes_a_bit_or_is_changed() {
 #[test]
 fn the_programs_of_the_readme_run() {
     let folder = TempDir::new().unwrap();
-    let readme = std::fs::read_to_string(file("README.md")).unwrap();
     for (language, name, flags) in [(Language::C, "c", "-std=c99"), (Language::Cpp, "cpp", "-std=c++17")] {
-        let (_, code) = readme.split_once(&format!("```{name}\n")).unwrap();
-        let source = folder.path().join(format!("readme-{name}.{name}"));
-        std::fs::write(&source, code.split_once("```").unwrap().0).unwrap();
+        let source = code("README.md", name, &folder);
         if let Some(program) = build(language, source.to_str().unwrap(), &[flags], &folder) {
             let text = succeed(&mut Command::new(&program));
             assert!(text.starts_with("t 1.") && !text.contains("weight 0\n"), "{text}");
         }
     }
+}
+
+#[test]
+fn the_code_of_the_documents_compiles() {
+    let folder = TempDir::new().unwrap();
+    // Strides that are not given are 0.
+    let flags = ["-std=c99", "-Wno-missing-field-initializers"];
+    check(Language::C, code("../../docs/embedding.md", "c", &folder), &flags);
 }

@@ -5,6 +5,24 @@
 use airlight_c::*;
 use core::ffi::CStr;
 
+/// What lights the rays of a host, and what they are in.
+#[derive(Clone, Copy, Debug)]
+pub struct Look {
+    pub has_spots: bool,
+    pub channels: usize,
+}
+
+/// Neither spots nor colours.
+pub const PLAIN: Look = Look { has_spots: false, channels: 1 };
+
+/// Every kind.
+pub const LOOKS: [Look; 4] = [
+    PLAIN,
+    Look { has_spots: true, channels: 1 },
+    Look { has_spots: false, channels: 3 },
+    Look { has_spots: true, channels: 4 },
+];
+
 /// Rays, numbers of each, and what lights them.
 #[derive(Clone)]
 pub struct Host {
@@ -14,19 +32,22 @@ pub struct Host {
     pub t_max: Vec<f32>,
     pub position: [Vec<f32>; 3],
     pub normal: [Vec<f32>; 3],
-    pub mu_a: Vec<f32>,
-    pub mu_s: Vec<f32>,
+    /// Cosines of the outer and the inner cone; -1 for a ray that no spot lights.
+    pub cosines: [Vec<f32>; 2],
+    pub mu_a: [Vec<f32>; 4],
+    pub mu_s: [Vec<f32>; 4],
     pub g: Vec<f32>,
     /// Variates or distances, so many for each ray.
     pub u: Vec<f32>,
     pub index: Vec<u32>,
     pub emitters: Vec<airlight_emitter>,
     pub media: Vec<airlight_medium>,
+    pub look: Look,
 }
 
 impl Host {
     /// Some rays of a seed, with so many variates each; every 17th is bad.
-    pub fn new(seed: u64, rays: usize, per_ray: usize) -> Self {
+    pub fn new(look: Look, seed: u64, rays: usize, per_ray: usize) -> Self {
         let mut rng = fastrand::Rng::with_seed(seed);
         let mut host = Self {
             origin: Default::default(),
@@ -35,13 +56,15 @@ impl Host {
             t_max: vec![],
             position: Default::default(),
             normal: Default::default(),
-            mu_a: vec![],
-            mu_s: vec![],
+            cosines: Default::default(),
+            mu_a: Default::default(),
+            mu_s: Default::default(),
             g: vec![],
             u: (0..rays * per_ray).map(|_| rng.f32()).collect(),
             index: (0..rays).map(|_| rng.u32(0..3)).collect(),
             emitters: vec![],
             media: vec![],
+            look,
         };
         for ray in 0..rays {
             let [direction, normal] = [unit(&mut rng), unit(&mut rng)];
@@ -53,21 +76,26 @@ impl Host {
             }
             host.t_min.push(rng.f32());
             host.t_max.push(if ray % 17 == 5 { f32::NAN } else { 1.0 + 4.0 * rng.f32() });
-            host.mu_a.push(rng.f32() * 0.1);
-            host.mu_s.push(rng.f32() * 0.5);
+            let cos_outer = rng.f32() * 0.5;
+            let cosines = if ray % 3 == 2 { [cos_outer, cos_outer + rng.f32() * 0.5] } else { [-1.0; 2] };
+            host.cosines.iter_mut().zip(cosines).for_each(|(column, cosine)| column.push(cosine));
+            for c in 0..4 {
+                host.mu_a[c].push(rng.f32() * 0.1);
+                host.mu_s[c].push(rng.f32() * 0.5);
+            }
             host.g.push(rng.f32() * 1.6 - 0.8);
         }
-        for kind in [0, 1, 1] {
+        for kind in if look.has_spots { [2, 1, 0] } else { [0, 1, 1] } {
             let position = [0; 3].map(|_| rng.f32() * 4.0 - 2.0);
             host.emitters.push(airlight_emitter {
                 kind,
                 position,
                 direction: unit(&mut rng),
-                cos_outer: 0.0,
-                cos_inner: 0.0,
+                cos_outer: 0.1,
+                cos_inner: 0.4,
             });
-            let (mu_a, mu_s) = ([rng.f32() * 0.1; 4], [rng.f32() * 0.5; 4]);
-            host.media.push(airlight_medium { channels: 1, mu_a, mu_s, g: rng.f32() - 0.5 });
+            let (mu_a, mu_s) = ([0; 4].map(|_| rng.f32() * 0.1), [0; 4].map(|_| rng.f32() * 0.5));
+            host.media.push(airlight_medium { channels: look.channels as u32, mu_a, mu_s, g: rng.f32() - 0.5 });
         }
         host
     }
@@ -79,8 +107,8 @@ impl Host {
     /// All its columns with a float for each ray.
     pub fn columns(&self) -> Vec<&[f32]> {
         let of_three = self.origin.iter().chain(&self.direction).chain(&self.position).chain(&self.normal);
-        let rest = [&self.t_min, &self.t_max, &self.mu_a, &self.mu_s, &self.g];
-        of_three.chain(rest).map(|column| &column[..]).collect()
+        let rest = [&self.t_min, &self.t_max, &self.g].into_iter().chain(&self.cosines);
+        of_three.chain(rest).chain(&self.mu_a).chain(&self.mu_s).map(|column| &column[..]).collect()
     }
 }
 
