@@ -71,8 +71,8 @@ check_aarch64() (
     qemu-aarch64 -L /usr/aarch64-linux-gnu "$program"
 )
 
-# Here the package for Python has its place: check_python.
 check_c
+bindings/python/check.sh
 for option in "$@"; do
     case $option in
         --install) check_install ;;
