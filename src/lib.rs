@@ -34,7 +34,7 @@
 //! | `theta` | `atan((t - t_h)/h)`, the angle at the emitter | rad |
 //! | `T` | transmittance from `t_min` over `x(t)` to the emitter | 1 |
 //! | `rho` | phase function | 1/sr |
-//! | `N` | cosine at the emitter | 1 |
+//! | `N` | cosine at the emitter; of a spot its falloff | 1 |
 //! | `u` | uniform variate | 1 |
 //! | pdf | probability density over distance | 1/m |
 //! | weight | `mu_s T rho N / (r^2 pdf)` | 1/m^2 |

@@ -110,7 +110,9 @@ impl Emitter {
     /// `cos_inner`, not at all beyond that of `cos_outer`, and smoothly in between. [There](Cone) stands how the spots of
     /// Blender, glTF and pbrt are given this way.
     ///
-    /// The [oracle](crate::oracle) has spots; the kernels do not yet, and calls with one return [`Error::Unavailable`].
+    /// What is outside the outer cone is dark: `Strategy::Transmittance` samples the whole ray, every other density the part
+    /// inside. The falloff between the cones is in weights, [`evaluate`](crate::Sampler::evaluate) and
+    /// [`radiance`](crate::Integral::radiance), and the product densities follow it; the others do not.
     ///
     /// # Errors
     /// [`Error::Value`] if a coordinate is NaN or larger than [`FARTHEST`] in size, if the length of the axis is not 1

@@ -1,5 +1,5 @@
 //! Over all 2^24 variates the mean weight is the radiance, and no weight is a firefly: light behind, beside and before
-//! the origin, infinite rays included.
+//! the origin, infinite rays and spots included.
 
 use airlight::oracle::Scene;
 use airlight::{Emitter, Emitters, Media, Medium, Ray, Rays, Samples, Strategy};
@@ -18,11 +18,18 @@ fn scenes() -> Vec<(Ray, Emitter, Medium)> {
         (Ray::new(Vec3::ZERO, Vec3::Z, 0.0, t_max).unwrap(), emitter, Medium::new(0.1, 0.4, g).unwrap())
     };
     let down = Some(Vec3::new(0.0, -0.8, 0.6));
+    let spot = |t_h, h, t_max, inner, g| {
+        let (position, axis) = (Vec3::new(0.0, h, t_h), Vec3::new(0.48, -0.8, 0.36));
+        let emitter = Emitter::spot(position, axis, 0.5, inner).unwrap();
+        (Ray::new(Vec3::ZERO, Vec3::Z, 0.0, t_max).unwrap(), emitter, Medium::new(0.1, 0.4, g).unwrap())
+    };
     vec![
         lit(-2.0, 0.5, f32::INFINITY, down, 0.6),
         lit(0.0, 0.7, 6.0, None, -0.3),
         lit(3.0, 0.25, f32::INFINITY, None, 0.6),
         lit(4.0, 0.01, 6.0, down, -0.3),
+        spot(2.0, 0.5, 6.0, 0.5, 0.6),
+        spot(1.0, 0.8, f32::INFINITY, 0.7, 0.6),
     ]
 }
 

@@ -5,7 +5,7 @@ use airlight::{Backend, Counts, Integral, Nodes, Sampler, Samples, Strategy};
 use airlight_tools::families::{Case, Columns, Family};
 use std::fmt;
 
-/// Per family; the twelve make 2^20 and more. Fewer on an emulated CPU, by the environment variable `AIRLIGHT_RAYS`.
+/// Per family; together 2^20 and more. Fewer on an emulated CPU, by the environment variable `AIRLIGHT_RAYS`.
 const RAYS: u64 = 96_011;
 const SEED: u64 = 301;
 

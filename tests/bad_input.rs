@@ -4,7 +4,7 @@
 mod scenes;
 
 use airlight::{
-    Counts, Emitter, Emitters, Error, FARTHEST, Integral, Media, Medium, Nodes, Ray, Sampler, Strategy, UNIT_TOLERANCE,
+    Counts, Emitter, Error, FARTHEST, Integral, Media, Medium, Nodes, Ray, Sampler, Strategy, UNIT_TOLERANCE,
 };
 use glam::Vec3;
 use scenes::{Case, Columns, Drawn, Random, Row};
@@ -36,7 +36,8 @@ fn input_of_another_length_is_named() {
             let (name, len, n) = if field == 0 { ("rays.direction[0]", N, other) } else { (name, other, N) };
             let three = |k: usize| [k, k + 1, k + 2].map(|k| &columns.0[k][..]);
             let rays = airlight::Rays::new(three(0), three(3), &columns.0[6], &columns.0[7]);
-            let emitters = airlight::Emitters::each(three(8), three(11));
+            let [cos_outer, cos_inner] = Columns::CONES.map(|k| &columns.0[k][..]);
+            let emitters = airlight::Emitters::each_spot(three(8), three(11), cos_outer, cos_inner);
             let [mu_a, mu_s, g] = three(14);
             let media = airlight::Media::each(mu_a, mu_s, g);
 
@@ -181,25 +182,16 @@ fn parameters_at_the_end_of_their_range_are_accepted() {
     }
 }
 
-/// Nothing takes a spot for a point, or a coloured medium for a grey one.
+/// Nothing takes a coloured medium for a grey one.
 #[test]
-fn spots_and_coloured_media_have_no_kernel() {
+fn coloured_media_have_no_kernel() {
     let columns = Columns::random(&mut Random::new(SEED), 9);
-    let spot = Emitter::spot(Vec3::ZERO, Vec3::X, 0.5, 0.6).unwrap();
     let medium = Medium::coloured([0.1; 3], [0.2, 0.3, 0.4], 0.0).unwrap();
-    let index = [0; 9];
-    let (spots, coloured) = ([spot], [medium]);
-    let (grey, points) = (columns.media(0..9), columns.emitters(0..9));
-    let refused = [
-        ("spots", Emitters::one(spot), grey),
-        ("spots", Emitters::table(&spots, &index), grey),
-        ("coloured media", points, Media::one(medium)),
-        ("coloured media", points, Media::table(&coloured, &index)),
-    ];
-    for (&strategy, (field, emitters, media)) in Strategy::ALL.iter().flat_map(|s| refused.iter().map(move |r| (s, r)))
-    {
+    let (coloured, index, emitters) = ([medium], [0; 9], &columns.emitters(0..9));
+    let refused = [Media::one(medium), Media::table(&coloured, &index)];
+    for (&strategy, media) in Strategy::ALL.iter().flat_map(|s| refused.iter().map(move |media| (s, media))) {
         let (sampler, rays, expected) =
-            (Sampler::new(strategy), columns.rays(0..9), Err(format!("there are no kernels for {field}")));
+            (Sampler::new(strategy), columns.rays(0..9), Err("there are no kernels for coloured media".to_owned()));
         let (mut drawn, mut out, u) = (Drawn::new(9), [f32::NAN; 9], columns.given());
         assert_eq!(said(sampler.sample(&rays, emitters, media, u, &mut drawn.samples())), expected);
         assert_eq!(said(sampler.pdf(&rays, emitters, media, u, &mut out)), expected);
@@ -209,15 +201,12 @@ fn spots_and_coloured_media_have_no_kernel() {
         let written = [&drawn.t, &drawn.pdf, &drawn.weight, &drawn.r].map(|column| &column[..]).concat();
         assert!(written.iter().chain(&out).all(|x| x.is_nan()));
     }
-    let good = good();
-    for case in [Case { emitter: spot, ..good }, Case { medium, ..good }] {
-        let (Case { ray, emitter, medium }, sampler) = (case, Sampler::new(Strategy::Product5));
-        assert_eq!(sampler.sample_one(&ray, &emitter, &medium, 0.5), None);
-        assert_eq!(sampler.pdf_one(&ray, &emitter, &medium, 1.0), 0.0);
-        assert_eq!(sampler.cdf_one(&ray, &emitter, &medium, 1.0), 0.0);
-        assert_eq!(sampler.evaluate_one(&ray, &emitter, &medium, 1.0), 0.0);
-        assert_eq!(Integral::new(Nodes::Eight).radiance_one(&ray, &emitter, &medium), 0.0);
-    }
+    let (Case { ray, emitter, .. }, sampler) = (good(), Sampler::new(Strategy::Product5));
+    assert_eq!(sampler.sample_one(&ray, &emitter, &medium, 0.5), None);
+    assert_eq!(sampler.pdf_one(&ray, &emitter, &medium, 1.0), 0.0);
+    assert_eq!(sampler.cdf_one(&ray, &emitter, &medium, 1.0), 0.0);
+    assert_eq!(sampler.evaluate_one(&ray, &emitter, &medium, 1.0), 0.0);
+    assert_eq!(Integral::new(Nodes::Eight).radiance_one(&ray, &emitter, &medium), 0.0);
 }
 
 /// A case that every strategy samples.
@@ -228,6 +217,9 @@ fn good() -> Case {
         medium: Medium::new(0.1, 0.2, 0.5).unwrap(),
     }
 }
+
+const COS_OUTER: &str = "emitters.cos_outer";
+const COS_INNER: &str = "emitters.cos_inner";
 
 /// What the fields of a bad ray hold, others as in [`good`].
 fn bad_rays() -> Vec<Vec<(&'static str, f32)>> {
@@ -263,6 +255,25 @@ fn bad_rays() -> Vec<Vec<(&'static str, f32)>> {
     bad.push(vec![("rays.direction[0]", 0.0), ("rays.direction[2]", 0.0)]);
     bad.push(vec![("rays.origin[0]", 1e30), ("emitters.position[0]", 1e30)]);
     bad.push(vec![("media.mu_a", f32::MAX), ("media.mu_s", f32::MAX)]);
+    // One cosine of -1 alone; cosines out of [0, 1]; the inner one below the outer one.
+    let cosines = [
+        [0.5, -1.0],
+        [-1.0, 0.5],
+        [-1.0, 1.0],
+        [-f32::from_bits(1), 0.5],
+        [-0.5, -0.5],
+        [0.5, 1f32.next_up()],
+        [1.5, 1.5],
+        [0.5, 0.5f32.next_down()],
+        [0.5, 0.0],
+        [1f32.next_down(), f32::NAN],
+        [f32::NAN, 0.5],
+        [f32::NAN; 2],
+    ];
+    bad.extend(cosines.map(|[outer, inner]| vec![(COS_OUTER, outer), (COS_INNER, inner)]));
+    for axis in [0.0, -0.0, 1e-30, 0.99, 1.01, f32::NAN, f32::INFINITY] {
+        bad.push(vec![("emitters.normal[1]", axis), (COS_OUTER, 0.5), (COS_INNER, 0.6)]);
+    }
     bad
 }
 
@@ -278,7 +289,9 @@ fn with_fields(fields: &[(&str, f32)]) -> Columns {
 fn a_bad_ray_is_counted_and_gets_zeros() {
     for &strategy in Strategy::ALL {
         let sampler = Sampler::new(strategy);
-        assert_eq!(with_fields(&[]).sample(&sampler).counts.sampled, 1);
+        for good in [&[][..], &[(COS_OUTER, 0.5), (COS_INNER, 0.6)], &[(COS_OUTER, -0.0), (COS_INNER, 1.0)]] {
+            assert_eq!(with_fields(good).sample(&sampler).counts.sampled, 1, "{strategy}: {good:?}");
+        }
         for fields in bad_rays() {
             let columns = with_fields(&fields);
             let drawn = columns.sample(&sampler);
@@ -294,12 +307,15 @@ fn a_bad_ray_is_counted_and_gets_zeros() {
 
 #[test]
 fn a_ray_without_light_is_empty() {
-    let dark: [&[(&str, f32)]; 4] = [
+    let dark: [&[(&str, f32)]; 6] = [
         &[("rays.t_max", 0.5)],
         &[("emitters.normal[1]", 1.0)],
         // Along the emitter's plane and beside it, on the dark side.
         &[("emitters.normal[1]", 1.0), ("emitters.position[1]", 1e-3)],
         &[("rays.t_min", 2e6), ("rays.t_max", 2e6)],
+        // Cones that face away, and one of no width.
+        &[("emitters.normal[1]", 1.0), (COS_OUTER, 0.0), (COS_INNER, 0.5)],
+        &[(COS_OUTER, 1.0), (COS_INNER, 1.0)],
     ];
     for &strategy in Strategy::ALL {
         for fields in dark {
@@ -313,10 +329,17 @@ fn a_ray_without_light_is_empty() {
 /// Rows of random bits in all fields or in some of otherwise good rays.
 fn random_bits(n: usize) -> Columns {
     let mut random = Random::new(SEED + 1);
-    let mut columns = Columns::random(&mut random, n);
+    let mut columns = Columns::with_spots(&mut random, n);
     for i in 0..n {
         // In one row of eight everything is random. So wild a ray is hardly ever valid.
-        let fields = if i % 8 == 0 { u64::from(u32::MAX) } else { random.bits() & random.bits() & random.bits() };
+        let mut fields = if i % 8 == 0 { u64::from(u32::MAX) } else { random.bits() & random.bits() & random.bits() };
+        // Three rows of four have no cone: random cosines are hardly ever those of one.
+        if i % 4 != 1 {
+            for k in Columns::CONES {
+                columns.0[k][i] = -1.0;
+                fields &= !(1 << k);
+            }
+        }
         for (field, column) in columns.0.iter_mut().enumerate() {
             if fields >> field & 1 == 1 {
                 column[i] = f32::from_bits(random.bits() as u32);

@@ -11,7 +11,7 @@ const SEED: u64 = 14;
 
 /// A lit case of each kind, and its ray.
 fn lit(random: &mut Random) -> Case {
-    std::iter::repeat_with(|| random.case()).find(|case| case.oracle().lit().is_some()).unwrap()
+    std::iter::repeat_with(|| random.case_or_spot()).find(|case| case.oracle().lit().is_some()).unwrap()
 }
 
 fn cdfs(sampler: &Sampler, case: &Case, t: Vec<f32>) -> Vec<f32> {

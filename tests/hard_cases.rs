@@ -91,6 +91,11 @@ fn peaks_of_the_phase_function_next_to_emitters() {
     holds(Family::Peaks);
 }
 
+#[test]
+fn cones_of_spots() {
+    holds(Family::Spot);
+}
+
 /// `N` is about `grade` all along the ray, 0 at t = 2: its squares leave f32, then its products, then `1/beta`.
 #[test]
 fn emitters_seen_edge_on() {

@@ -25,12 +25,15 @@ fn assert_same<'a>(drawn: &Drawn, expected: impl Fn(usize) -> &'a [u32; 4], plac
     }
 }
 
-/// `n` random cases, and the bits of each alone, per strategy.
+/// `n` random cases, without spots and with, and the bits of each alone, per strategy. Alone, what has no cone is in columns
+/// without cones.
 fn for_each_strategy(n: usize, test: impl Fn(&Sampler, &Columns, &[[u32; 4]])) {
-    let columns = Columns::random(&mut Random::new(SEED), n);
-    for &strategy in Strategy::ALL {
-        let sampler = Sampler::new(strategy);
-        test(&sampler, &columns, &alone(&columns, &sampler));
+    for draw in [Columns::random, Columns::with_spots] {
+        let columns = draw(&mut Random::new(SEED), n);
+        for &strategy in Strategy::ALL {
+            let sampler = Sampler::new(strategy);
+            test(&sampler, &columns, &alone(&columns, &sampler));
+        }
     }
 }
 
@@ -110,6 +113,10 @@ fn any_alignment_and_nothing_beside_it() {
                 let three = |k: usize| [column(k), column(k + 1), column(k + 2)];
                 let rays = airlight::Rays::new(three(0), three(3), column(6), column(7));
                 let emitters = Emitters::each(three(8), three(11));
+                let [cos_outer, cos_inner] = Columns::CONES.map(column);
+                let with_cones = Emitters::each_spot(three(8), three(11), cos_outer, cos_inner);
+                let has_spots = columns.0[Columns::CONES[0]].iter().any(|cosine| *cosine != -1.0);
+                let emitters = if has_spots { with_cones } else { emitters };
                 let media = Media::each(column(14), column(15), column(16));
                 let mut written: [Vec<f32>; 4] = std::array::from_fn(|_| canaries(n + 32));
                 let inside = |k: usize| -> Range<usize> { 8 + shift(k)..8 + shift(k) + n };
@@ -162,7 +169,7 @@ fn one_for_all_is_the_same_for_each() {
     for &strategy in Strategy::ALL {
         let sampler = Sampler::new(strategy);
         for _ in 0..32 {
-            let one = random.case();
+            let one = random.case_or_spot();
             let n = 100;
             let columns = Columns::new((0..n).map(|_| {
                 let case = random.case();

@@ -1,10 +1,11 @@
 //! The formula and its constants against an independent renderer: single-scattered radiance of 768 rays in grey media, and of
-//! 1152 in coloured and grey ones with spots.
+//! 1152 in coloured and grey ones with spots; of the oracle, and of the kernels.
 
 use airlight::oracle::quadrature::integrate;
 use airlight::oracle::{Coloured, Scene};
-use airlight::{Emitter, Medium, Ray};
+use airlight::{Emitter, Integral, Medium, Nodes, Ray, Sampler, Strategy};
 use glam::Vec3;
+use std::fmt;
 
 /// By how much of its length the renderer shortens a shadow ray.
 const SHADOW_EPSILON: f64 = 8.94e-4;
@@ -13,6 +14,7 @@ const SHADOW_EPSILON: f64 = 8.94e-4;
 struct Row {
     table: &'static str,
     line: usize,
+    parts: (Ray, Emitter, Medium),
     scene: Scene,
     /// The same with the f32 on the other side of the exact cosine of a spot, and how near that is: from 0 at `scene`'s to 1.
     other: (Scene, f64),
@@ -58,10 +60,12 @@ fn lamp(line: usize, column: &[f64]) -> Row {
     let (y, n) = (vector(&column[8..]), vector(&column[11..]));
     let emitter = if n == Vec3::ZERO { Emitter::point(y) } else { Emitter::point_normal(y, n) }.unwrap();
     let [mu_s, mu_a, g] = [14, 15, 16].map(|i| column[i] as f32);
-    let scene = Scene::new(&ray(column), &emitter, &Medium::new(mu_a, mu_s, g).unwrap());
+    let parts = (ray(column), emitter, Medium::new(mu_a, mu_s, g).unwrap());
+    let scene = Scene::new(&parts.0, &parts.1, &parts.2);
     Row {
         table: "radiance.csv",
         line,
+        parts,
         scene,
         other: (scene, 0.0),
         scale: column[17] * before_t_min(&scene),
@@ -76,10 +80,11 @@ fn spot((line, column): (usize, Vec<f64>)) -> [Row; 3] {
     let (y, axis) = (vector(&column[8..]), vector(&column[11..]));
     let medium =
         Medium::coloured(vector(&column[18..]).into(), vector(&column[15..]).into(), column[21] as f32).unwrap();
-    let scene = |cosine: f32| {
-        let emitter = if axis == Vec3::ZERO { Emitter::point(y) } else { Emitter::spot(y, axis, cosine, cosine) };
-        Coloured::new(&ray(&column), &emitter.unwrap(), &medium)
+    let ray = ray(&column);
+    let emitter = |cosine: f32| {
+        if axis == Vec3::ZERO { Emitter::point(y) } else { Emitter::spot(y, axis, cosine, cosine) }.unwrap()
     };
+    let scene = |cosine: f32| Coloured::new(&ray, &emitter(cosine), &medium);
     let exact = column[14].to_radians().cos();
     let nearest = exact as f32;
     let beyond = if f64::from(nearest) < exact { nearest.next_up() } else { nearest.next_down() };
@@ -88,6 +93,7 @@ fn spot((line, column): (usize, Vec<f64>)) -> [Row; 3] {
     [0, 1, 2].map(|c| Row {
         table: "spots.csv",
         line,
+        parts: (ray, emitter(nearest), medium.channel(c).unwrap()),
         scene: scene.channels()[c],
         other: (other.channels()[c], share),
         scale: before_t_min(&scene.channels()[c]),
@@ -130,6 +136,35 @@ fn the_renderer_agrees_within_its_noise() {
     let rms = (squares.iter().sum::<f64>() / squares.len() as f64).sqrt();
     println!("{} rays and channels: largest {worst:.2}, root mean square {rms:.3} standard errors", squares.len());
     assert!(worst > 2.0, "of hundreds of rows the worst is off by {worst} standard errors: too good to be true");
+}
+
+/// Every channel as a grey medium: integrals by quadrature of the kernels, and means of samples at even variates.
+#[test]
+fn the_kernels_agree_within_its_noise() {
+    const VARIATES: u16 = 1024;
+    let u: Vec<f32> = (0..VARIATES).map(|i| (f32::from(i) + 0.5) / f32::from(VARIATES)).collect();
+    for row in rows() {
+        let (ray, emitter, medium) = &row.parts;
+        let oracle = radiance(&row.scene, 0.0);
+        let corrected = if oracle == 0.0 { 1.0 } else { radiance(&row.scene, SHADOW_EPSILON) / oracle };
+        let held = |found: f64, by: &dyn fmt::Display| {
+            let (value, name) = (row.scale * corrected * found, row.name());
+            if oracle == 0.0 {
+                assert_eq!(value, 0.0, "{name}: {by}");
+            } else {
+                let z = (row.reference - value) / row.standard_error;
+                assert!(z.abs() <= 4.0, "{name}: {by} is off by {z} standard errors");
+            }
+        };
+        for nodes in [Nodes::Eight, Nodes::Twelve] {
+            held(Integral::new(nodes).radiance_one(ray, emitter, medium).into(), &nodes);
+        }
+        for strategy in [Strategy::Product5, Strategy::EquiAngular] {
+            let weight =
+                |u| Sampler::new(strategy).sample_one(ray, emitter, medium, u).map_or(0.0, |s| f64::from(s.weight));
+            held(u.iter().copied().map(weight).sum::<f64>() / f64::from(VARIATES), &strategy);
+        }
+    }
 }
 
 #[test]

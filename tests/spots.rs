@@ -1,11 +1,14 @@
 //! Spots in the oracle, against what a spot is: the part of a ray inside the cone, the falloff, the integral, the variances.
+//! And in the kernels, against both.
 
 mod scenes;
 
 use airlight::oracle::Scene;
-use airlight::{Emitter, FARTHEST, Medium, Ray, Strategy};
+use airlight::{Emitter, Emitters, FARTHEST, Integral, Medium, Nodes, Ray, Sampler, Strategy};
+use airlight_tools::backends::distinct;
+use airlight_tools::samplers;
 use glam::{DVec3, Vec3};
-use scenes::Random;
+use scenes::{Case, Columns, Drawn, Random};
 
 const SEED: u64 = 15;
 
@@ -35,6 +38,28 @@ impl Spot {
         let length = random.between(1.0, 20.0);
         let ray = Ray::new(random.point(), random.unit(), 0.0, length).unwrap();
         Self::new(ray, Vec3::ZERO, axis, cos_outer, cos_inner)
+    }
+
+    /// Any of the axes, cones and rays that there are in a box of side 10.
+    fn any(random: &mut Random) -> Self {
+        let angle = 90.0 * random.uniform().powi(3);
+        let outer = [cos_degrees(angle), cos_degrees(0.1), 0.0, random.uniform()][random.below(4)];
+        let inner = [outer, outer + (1.0 - outer) * random.uniform(), 1.0][random.below(3)];
+        let toward = random.unit();
+        let position = random.point();
+        let t_min = [0.0, 3.0 * random.uniform()][random.below(2)];
+        let t_max = [t_min + 20.0 * random.uniform(), f32::INFINITY][random.below(2)];
+        let ray = Ray::new(random.point(), toward, t_min, t_max).unwrap();
+        // any axis, and one that meets the ray or nearly so
+        let aimed = (Vec3::from(ray.origin()) + Vec3::from(ray.direction()) * random.between(-5.0, 15.0) - position)
+            .normalize();
+        let axis = [random.unit(), aimed, (aimed + 0.01 * random.unit()).normalize()][random.below(3)];
+        Self::new(ray, position, axis, outer, inner)
+    }
+
+    /// A point at the same place that shines alike in all directions.
+    fn without_cone(&self) -> Emitter {
+        Emitter::point(self.emitter.position()).unwrap()
     }
 
     fn scene(&self, medium: &Medium) -> Scene {
@@ -134,19 +159,7 @@ fn the_lit_part_is_inside_the_cone_and_nothing_else() {
     let mut random = Random::new(SEED);
     let mut points = [0; 2];
     for _ in 0..20_000 {
-        let angle = 90.0 * random.uniform().powi(3);
-        let outer = [cos_degrees(angle), cos_degrees(0.1), 0.0, random.uniform()][random.below(4)];
-        let inner = [outer, outer + (1.0 - outer) * random.uniform(), 1.0][random.below(3)];
-        let toward = random.unit();
-        let position = random.point();
-        let t_min = [0.0, 3.0 * random.uniform()][random.below(2)];
-        let t_max = [t_min + 20.0 * random.uniform(), f32::INFINITY][random.below(2)];
-        let ray = Ray::new(random.point(), toward, t_min, t_max).unwrap();
-        // any axis, and one that meets the ray or nearly so
-        let aimed = (Vec3::from(ray.origin()) + Vec3::from(ray.direction()) * random.between(-5.0, 15.0) - position)
-            .normalize();
-        let axis = [random.unit(), aimed, (aimed + 0.01 * random.unit()).normalize()][random.below(3)];
-        let found = assert_clipped(&Spot::new(ray, position, axis, outer, inner), &mut random);
+        let found = assert_clipped(&Spot::any(&mut random), &mut random);
         points = [0, 1].map(|k| points[k] + found[k]);
     }
     println!("{points:?} points inside and outside");
@@ -363,4 +376,169 @@ fn product_densities_follow_any_falloff() {
     });
     println!("half-angles from 2 to 60 degrees, edges from hard to soft: {means:.4?}");
     assert!(means[0] <= 0.02 && means[1] <= 0.005, "{means:?}");
+}
+
+/// Media of the kernels' tests.
+fn fog(random: &mut Random) -> Medium {
+    Medium::new(random.between(0.0, 0.5), random.between(0.1, 0.5), random.between(-0.7, 0.7)).unwrap()
+}
+
+/// But for the rounding of `t`. The density of the transmittance knows no cone: what it draws outside has no weight.
+#[test]
+fn no_sample_is_outside_the_cone() {
+    println!("seed {SEED}");
+    let mut random = Random::new(SEED);
+    let (mut inside, mut outside) = (0, 0);
+    for _ in 0..5000 {
+        let (spot, medium) = (Spot::any(&mut random), fog(&mut random));
+        let (scene, (t_min, t_max)) = (spot.scene(&medium), (spot.ray.t_min(), spot.ray.t_max()));
+        let least = 2f32.powi(-24);
+        let variates = [0.0, least, random.uniform(), random.uniform(), 1.0 - least, 1.0];
+        let kernels = distinct().flat_map(|backend| samplers::all().map(move |sampler| sampler.with_backend(backend)));
+        for (sampler, u) in kernels.flat_map(|sampler| variates.map(|u| (sampler, u))) {
+            let sample = sampler.sample_one(&spot.ray, &spot.emitter, &medium, u);
+            let Some(sample) = sample else {
+                let short = scene.lit().is_none_or(|(t_a, t_b)| t_b - t_a < 1e-6 * t_a);
+                assert!(short, "{sampler:?} at {u} has no sample of {spot:?}: {:?}", scene.lit());
+                continue;
+            };
+            let seen = || format!("{sampler:?} at {u}: {sample:?} of {spot:?}, {:?}", scene.lit());
+            let (low, high): (f64, f64) = (sample.t.next_down().into(), sample.t.next_up().into());
+            let within = scene.lit().is_some_and(|(t_a, t_b)| t_a <= high && low <= t_b);
+            assert!((t_min..=t_max).contains(&sample.t) && sample.weight.is_finite(), "{}", seen());
+            if sampler.strategy() == Strategy::Transmittance {
+                assert!(within || sample.weight == 0.0, "{}", seen());
+                outside += usize::from(!within);
+            } else {
+                assert!(within, "{}", seen());
+                inside += 1;
+            }
+        }
+    }
+    println!("{inside} samples inside, {outside} of the transmittance outside");
+    assert!(inside > 100_000 && outside > 1000);
+}
+
+/// Weights, integrands and integrals are those of a point times the falloff, which is 0 or 1 if the edge is hard.
+#[test]
+fn kernels_have_the_falloff() {
+    println!("seed {SEED}");
+    let mut random = Random::new(SEED);
+    let (mut hard, mut soft, mut dark) = (0, 0, 0);
+    let mut scenes = 0;
+    while scenes < 1000 {
+        let (outer, axis) = (cos_degrees(random.between(5.0, 90.0)), random.unit());
+        let inner = [outer, outer + (1.0 - outer) * random.uniform()][random.below(2)];
+        let (spot, medium) = (Spot::generic(&mut random, axis, outer, inner), fog(&mut random));
+        let scene = spot.scene(&medium);
+        if scene.h() < 0.1 || scene.lit().is_none_or(|(t_a, t_b)| scene.angle(t_a, t_b) < 0.1) {
+            continue;
+        }
+        scenes += 1;
+        let (ray, emitter, point) = (&spot.ray, &spot.emitter, &spot.without_cone());
+        let integral = Integral::new(Nodes::Twelve).radiance_one(ray, emitter, &medium);
+        let error = (f64::from(integral) / scene.radiance() - 1.0).abs();
+        assert!(error < 5e-2, "{spot:?}: {integral:e} is not {:e}", scene.radiance());
+        for sampler in samplers::all() {
+            let evaluate = |emitter, t: f32| f64::from(sampler.evaluate_one(ray, emitter, &medium, t));
+            for _ in 0..20 {
+                let t = random.uniform() * ray.t_max();
+                let (cosine, rounding) = spot.cosine(t.into());
+                let beyond = (cosine - f64::from(outer)).abs();
+                if beyond < 1e-6 {
+                    continue;
+                }
+                let (found, falloff) = (evaluate(emitter, t), spot.falloff(cosine));
+                let expected = falloff * evaluate(point, t);
+                let error = (found - expected).abs();
+                let allowed = 2e-5 + 4.0 * rounding / beyond;
+                assert!(error <= allowed * expected, "{sampler:?} at {t}: {found:e} is not {expected:e}, {spot:?}");
+                *[&mut dark, &mut soft, &mut hard][if falloff == 0.0 { 0 } else { usize::from(falloff == 1.0) + 1 }] +=
+                    1;
+
+                let u = random.uniform();
+                let sample = sampler.sample_one(ray, emitter, &medium, u).unwrap();
+                let t = [sample.t.next_down(), sample.t, sample.t.next_up()];
+                let near = t.map(|t| evaluate(emitter, t));
+                let (low, high) = (near.into_iter().fold(f64::MAX, f64::min), near.into_iter().fold(0.0, f64::max));
+                let (found, pdf) = (f64::from(sample.weight * sample.pdf), f64::from(sample.pdf));
+                let at_an_end = sampler.pdf_one(ray, emitter, &medium, t[0]) == 0.0
+                    || sampler.pdf_one(ray, emitter, &medium, t[2]) == 0.0;
+                let fits = (0.999 * low..=1.001 * high).contains(&found);
+                assert!(fits || at_an_end, "{sampler:?} at {u}: {sample:?}, {low:e} to {high:e} over {pdf}, {spot:?}");
+            }
+        }
+    }
+    println!("{hard} in full, {soft} between the cones, {dark} in the dark");
+    assert!(hard.min(soft).min(dark) > 10_000);
+}
+
+/// It has no word on the cone: the distances and densities are those of a point.
+#[test]
+fn the_transmittance_is_sampled_along_the_whole_ray() {
+    println!("seed {SEED}");
+    let mut random = Random::new(SEED);
+    let mut lit = 0;
+    let sampler = Sampler::new(Strategy::Transmittance);
+    for _ in 0..2000 {
+        let (spot, medium, u) = (Spot::any(&mut random), fog(&mut random), random.uniform());
+        let of = |emitter: &Emitter| sampler.sample_one(&spot.ray, emitter, &medium, u);
+        let (Some(found), Some(point)) = (of(&spot.emitter), of(&spot.without_cone())) else { continue };
+        assert_eq!([found.t, found.pdf].map(f32::to_bits), [point.t, point.pdf].map(f32::to_bits), "{spot:?} at {u}");
+        lit += 1;
+    }
+    assert!(lit > 500, "{lit}");
+}
+
+/// All that is written for the rows of columns whose emitters are given as `emitters`, as bits.
+fn everything(columns: &Columns, emitters: &Emitters<'_>, sampler: &Sampler) -> Vec<[u32; 8]> {
+    let (n, t) = (columns.len(), columns.given().iter().map(|u| 12.0 * u).collect::<Vec<_>>());
+    let (rays, media) = (columns.rays(0..n), columns.media(0..n));
+    let (mut drawn, mut at_t) = (Drawn::new(n), [(); 4].map(|()| vec![f32::NAN; n]));
+    let [pdf, cdf, integrand, radiance] = &mut at_t;
+    sampler.sample(&rays, emitters, &media, columns.given(), &mut drawn.samples()).unwrap();
+    sampler.pdf(&rays, emitters, &media, &t, pdf).unwrap();
+    sampler.cdf(&rays, emitters, &media, &t, cdf).unwrap();
+    sampler.evaluate(&rays, emitters, &media, &t, integrand).unwrap();
+    let integral = Integral::new(Nodes::Four).with_backend(sampler.backend()).with_precision(sampler.precision());
+    integral.radiance(&rays, emitters, &media, radiance).unwrap();
+    (0..n)
+        .map(|i| {
+            let [t, pdf, weight, r] = drawn.bits(i);
+            let [pdf_at, cdf, integrand, radiance] = at_t.each_ref().map(|column| column[i].to_bits());
+            [t, pdf, weight, r, pdf_at, cdf, integrand, radiance]
+        })
+        .collect()
+}
+
+/// To the bit, whether or not spots stand next to it.
+#[test]
+fn two_cosines_of_minus_1_are_no_cone() {
+    const RAYS: usize = 4099;
+    println!("seed {SEED}");
+    let mut random = Random::new(SEED);
+    let cases: Vec<(Case, f32)> = (0..RAYS).map(|_| (random.case(), random.uniform())).collect();
+    let is_spot: Vec<bool> = (0..RAYS).map(|_| random.below(3) == 0).collect();
+    let mixed = cases.iter().zip(&is_spot).map(|(&(case, u), &is_spot)| {
+        let emitter = if is_spot { random.spot() } else { case.emitter };
+        (Case { emitter, ..case }, u)
+    });
+    let (mixed, alike) = (Columns::new(mixed), Columns::new(cases.iter().copied()));
+    let none = vec![-1.0; RAYS];
+    let [position, axis] = [8, 11].map(|first| [0, 1, 2].map(|k| &alike.0[first + k][..]));
+    for backend in distinct() {
+        for sampler in samplers::all().map(|sampler| sampler.with_backend(backend)) {
+            let expected = everything(&alike, &Emitters::each(position, axis), &sampler);
+            let without = everything(&alike, &Emitters::each_spot(position, axis, &none, &none), &sampler);
+            let beside = everything(&mixed, &mixed.emitters(0..RAYS), &sampler);
+            let mut spots = 0;
+            for i in 0..RAYS {
+                let seen = || format!("ray {i}, {sampler:?}: {:?}", cases[i]);
+                assert_eq!(without[i], expected[i], "{}", seen());
+                assert!(is_spot[i] || beside[i] == expected[i], "{}", seen());
+                spots += usize::from(is_spot[i] && beside[i] != expected[i]);
+            }
+            assert!(spots > 500, "{spots} spots are none, {sampler:?}");
+        }
+    }
 }

@@ -23,7 +23,7 @@ struct Batch {
 impl Batch {
     fn new(rays: usize) -> Self {
         let mut random = Random::new(SEED);
-        let entries: Vec<_> = (0..ENTRIES).map(|_| random.case()).collect();
+        let entries: Vec<_> = (0..ENTRIES).map(|_| random.case_or_spot()).collect();
         let [emitter_of, medium_of] =
             [(); 2].map(|()| (0..rays).map(|_| random.below(ENTRIES) as u32).collect::<Vec<_>>());
         let rows = emitter_of.iter().zip(&medium_of).map(|(&emitter, &medium)| {

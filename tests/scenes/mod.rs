@@ -67,6 +67,19 @@ impl Random {
         let medium = Medium::new((1.0 - albedo) * mu_t, albedo * mu_t, g);
         Case { ray, emitter: emitter.unwrap(), medium: medium.unwrap() }
     }
+
+    /// The same, or with a spot in place of the emitter: any axis, half-angles of 2 to 90 degrees, edges from hard to soft.
+    pub(crate) fn case_or_spot(&mut self) -> Case {
+        let case = self.case();
+        if self.below(2) == 0 { case } else { Case { emitter: self.spot(), ..case } }
+    }
+
+    /// A spot of that room.
+    pub(crate) fn spot(&mut self) -> Emitter {
+        let outer = self.between(2.0, 90.0).to_radians().cos().max(0.0);
+        let inner = (outer + (1.0 - outer) * [0.0, self.uniform(), 1.0][self.below(3)]).min(1.0);
+        Emitter::spot(self.point(), self.unit(), outer, inner).unwrap()
+    }
 }
 
 /// One ray, one emitter, one medium.
@@ -83,12 +96,13 @@ impl Case {
     }
 }
 
-/// The columns of a call, in the order of [`Columns::FIELDS`]; the last one is what is given: variates or distances.
+/// The columns of a call, in the order of [`Columns::FIELDS`]; the last one is what is given: variates or distances. The
+/// cosines of an emitter without a cone are -1.
 #[derive(Clone)]
-pub(crate) struct Columns(pub(crate) [Vec<f32>; 18]);
+pub(crate) struct Columns(pub(crate) [Vec<f32>; 20]);
 
 impl Columns {
-    pub(crate) const FIELDS: [&str; 18] = [
+    pub(crate) const FIELDS: [&str; 20] = [
         "rays.origin[0]",
         "rays.origin[1]",
         "rays.origin[2]",
@@ -106,9 +120,12 @@ impl Columns {
         "media.mu_a",
         "media.mu_s",
         "media.g",
+        "emitters.cos_outer",
+        "emitters.cos_inner",
         "u",
     ];
-    pub(crate) const GIVEN: usize = 17;
+    pub(crate) const CONES: [usize; 2] = [17, 18];
+    pub(crate) const GIVEN: usize = 19;
 
     /// The index of a field.
     pub(crate) fn index(field: &str) -> usize {
@@ -128,6 +145,11 @@ impl Columns {
         Self::new((0..n).map(|_| (random.case(), random.uniform())))
     }
 
+    /// The same with spots among the emitters.
+    pub(crate) fn with_spots(random: &mut Random, n: usize) -> Self {
+        Self::new((0..n).map(|_| (random.case_or_spot(), random.uniform())))
+    }
+
     /// One case with many variates or distances.
     pub(crate) fn repeat(case: &Case, given: Vec<f32>) -> Self {
         let mut one = Self::new([(*case, 0.0)]);
@@ -140,11 +162,14 @@ impl Columns {
 
     fn push(&mut self, case: &Case, given: f32) {
         let Case { ray, emitter, medium } = case;
-        let normal = emitter.normal().unwrap_or_default();
+        let cone = emitter.cone();
+        let normal = emitter.normal().or(cone.map(|cone| cone.axis())).unwrap_or_default();
         let row = [ray.origin(), ray.direction()].into_iter().flatten();
         let row = row.chain([ray.t_min(), ray.t_max()]);
         let row = row.chain(emitter.position()).chain(normal);
-        let row = row.chain([medium.mu_a(), medium.mu_s(), medium.g(), given]);
+        let row = row.chain([medium.mu_a(), medium.mu_s(), medium.g()]);
+        let cosines = cone.map_or([-1.0; 2], |cone| [cone.cos_outer(), cone.cos_inner()]);
+        let row = row.chain(cosines).chain([given]);
         for (column, value) in self.0.iter_mut().zip(row) {
             column.push(value);
         }
@@ -167,8 +192,15 @@ impl Columns {
         Rays::new(self.three(0, &range), self.three(3, &range), &self.0[6][range.clone()], &self.0[7][range])
     }
 
+    /// In columns without cones where none of the range has one.
     pub(crate) fn emitters(&self, range: Range<usize>) -> Emitters<'_> {
-        Emitters::each(self.three(8, &range), self.three(11, &range))
+        let (position, axis) = (self.three(8, &range), self.three(11, &range));
+        let [cos_outer, cos_inner] = Self::CONES.map(|k| &self.0[k][range.clone()]);
+        if cos_outer.iter().chain(cos_inner).all(|cosine| *cosine == -1.0) {
+            Emitters::each(position, axis)
+        } else {
+            Emitters::each_spot(position, axis, cos_outer, cos_inner)
+        }
     }
 
     pub(crate) fn media(&self, range: Range<usize>) -> Media<'_> {

@@ -350,7 +350,8 @@ fn sharpest_edge(scene: &Scene, ray: &Ray, emitter: &Emitter) -> f64 {
 
 /// Whether the ray runs so exactly across the axis of a spot that no direction of it has a cosine which f32 can square, or
 /// what is lit of it is a rounding in f64.
-fn grazes_a_cone(scene: &Scene, ray: &Ray, emitter: &Emitter) -> bool {
+#[must_use]
+pub fn grazes_a_cone(scene: &Scene, ray: &Ray, emitter: &Emitter) -> bool {
     emitter.cone().is_some_and(|cone| {
         let across = axis_cosines(scene, ray, emitter, cone.axis()).into_iter().all(|x| x.abs() < 1e-18);
         let sine = sharpest_edge(scene, ray, emitter);

@@ -170,13 +170,7 @@ impl Case {
     /// Whatever the constructors find.
     pub fn parts(&self) -> Result<(Ray, Emitter, Medium), Error> {
         let ray = Ray::new(self.origin, self.direction, self.t_min, self.t_max)?;
-        let emitter = if self.is_spot() {
-            Emitter::spot(self.position, self.normal, self.cos_outer, self.cos_inner)?
-        } else if self.normal == Vec3::ZERO {
-            Emitter::point(self.position)?
-        } else {
-            Emitter::point_normal(self.position, self.normal)?
-        };
+        let emitter = emitter(self.position, self.normal, [self.cos_outer, self.cos_inner])?;
         Ok((ray, emitter, Medium::new(self.mu_a, self.mu_s, self.g)?))
     }
 
@@ -439,7 +433,19 @@ impl Case {
 }
 
 /// The cosine that stands for no cone.
-const NO_CONE: f32 = -1.0;
+pub const NO_CONE: f32 = -1.0;
+
+/// What a row of columns describes: a spot, or without a cone an emitter with this normal, or with none.
+///
+/// # Errors
+/// As the constructor of [`Emitter`].
+pub fn emitter(position: Vec3, axis: Vec3, cosines: [f32; 2]) -> Result<Emitter, Error> {
+    match cosines {
+        [NO_CONE, NO_CONE] if axis == Vec3::ZERO => Emitter::point(position),
+        [NO_CONE, NO_CONE] => Emitter::point_normal(position, axis),
+        [outer, inner] => Emitter::spot(position, axis, outer, inner),
+    }
+}
 
 /// Columns of many cases.
 #[derive(Debug, Default)]

@@ -30,7 +30,7 @@ const SCALAR_RAYS: usize = 1 << 12;
 /// Compare the integral of the airlight with quadrature, and its time with that of plain rules, on sets of scenes
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// Scenes: generic, broad, dense, tame or canonical, may be repeated [default: generic, broad, dense]
+    /// Scenes: generic, broad, dense, tame, spot or canonical, may be repeated [default: generic, broad, dense]
     #[arg(long, value_name = "NAME", value_parser = set)]
     set: Vec<Sets>,
     /// Scenes of a set
@@ -51,7 +51,7 @@ pub(crate) struct Args {
 struct Sets(Vec<Set>);
 
 fn set(name: &str) -> Result<Sets, String> {
-    let unknown = || format!("no set is called '{name}'; there are generic, broad, dense, tame and canonical");
+    let unknown = || format!("no set is called '{name}'; there are generic, broad, dense, tame, spot and canonical");
     Set::named(name).map(Sets).ok_or_else(unknown)
 }
 

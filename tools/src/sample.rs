@@ -19,7 +19,8 @@ use std::time::{Duration, Instant};
 /// Sample a wavefront with each strategy; report throughput, radiance and agreement with quadrature
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// Wavefront to sample [default: the built-in Cornell box in fog]
+    /// Wavefront to sample; with the columns cos_outer and cos_inner its emitters are spots, whose axes are the normals, but
+    /// for those where both are -1 [default: the built-in Cornell box in fog]
     #[arg(value_name = "WAVEFRONT.npz")]
     wavefront: Option<PathBuf>,
     /// Medium: absorption and scattering coefficient [1/m] and mean cosine

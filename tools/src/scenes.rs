@@ -18,6 +18,8 @@ pub enum Set {
     Dense,
     /// `h` 0.1 to 10 m, rays of 0.5 to 20 m, `mu_t h` up to 3, `g` 0 to 0.9, with no normal or any.
     Tame,
+    /// The rays of `generic` with spots: any axis, half-angles of 2 to 60 degrees, edges from hard to soft.
+    Spot,
     /// Camera rays through a box of side 4 m with the emitter in its middle, `mu_a` 0.5 and `mu_s` 0.2 per m.
     Canonical {
         /// Mean cosine 0.9, else 0.
@@ -36,6 +38,7 @@ impl Set {
             Self::Generic => "generic",
             Self::Dense => "dense",
             Self::Tame => "tame",
+            Self::Spot => "spot",
             Self::Canonical { forward: false, normal: false } => "canonical-g0-point",
             Self::Canonical { forward: false, normal: true } => "canonical-g0-point-normal",
             Self::Canonical { forward: true, normal: false } => "canonical-g0.9-point",
@@ -53,6 +56,7 @@ impl Set {
             "generic" => Some(vec![Self::Generic]),
             "dense" => Some(vec![Self::Dense]),
             "tame" => Some(vec![Self::Tame]),
+            "spot" => Some(vec![Self::Spot]),
             "canonical" => Some(canonical.to_vec()),
             _ => canonical.into_iter().find(|set| set.name() == name).map(|set| vec![set]),
         }
@@ -78,6 +82,7 @@ impl Set {
     fn case(self, seed: u64, index: u64) -> Option<Case> {
         match self {
             Self::Generic => Ok(Family::Generic.case(seed, index)),
+            Self::Spot => Ok(spot(&mut Draw::new(seed, 68, index))),
             Self::Dense => dense(&mut Draw::new(seed, 67, index)),
             Self::Broad => broad(&mut Draw::new(seed, 64, index)),
             Self::Tame => tame(&mut Draw::new(seed, 65, index)),
@@ -92,6 +97,12 @@ impl Set {
 fn dense(draw: &mut Draw) -> Result<Case, Error> {
     let case = Case::generic(draw);
     Ok(case.within(&Medium::new(0.0, 4.0, draw.between(0.0, 0.95))?))
+}
+
+fn spot(draw: &mut Draw) -> Case {
+    let (case, axis) = (Case::generic(draw), draw.direction());
+    let half_angle = f64::from(draw.between(2.0, 60.0));
+    case.with_cone(draw, axis, half_angle.to_radians().cos() as f32)
 }
 
 fn broad(draw: &mut Draw) -> Result<Case, Error> {
@@ -160,7 +171,8 @@ mod tests {
 
     #[test]
     fn names_are_found_again() {
-        for set in ["broad", "generic", "dense", "tame", "canonical"].iter().flat_map(|name| Set::named(name).unwrap())
+        for set in
+            ["broad", "generic", "dense", "tame", "spot", "canonical"].iter().flat_map(|name| Set::named(name).unwrap())
         {
             assert_eq!(Set::named(set.name()), Some(vec![set]));
         }
@@ -174,6 +186,10 @@ mod tests {
         }
         for scene in Set::Tame.scenes(1, 1000) {
             assert!(scene.mu_t() * scene.h() <= 3.0001 && scene.interval().1 <= 20.001);
+        }
+        for (case, _) in Set::Spot.cases(1, 1000) {
+            let cone = case.parts().unwrap().1.cone().unwrap();
+            assert!((0.4999..0.9994).contains(&cone.cos_outer()), "{cone:?}");
         }
         for scene in Set::named("canonical").unwrap().into_iter().flat_map(|set| set.scenes(1, 250)) {
             let (t_min, t_max) = scene.interval();

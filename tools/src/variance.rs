@@ -22,7 +22,7 @@ const CLIMBS: usize = 256;
 /// Compare the relative variances of all densities, by quadrature, on a set of scenes
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// Scenes: broad, generic, dense, tame, canonical, or the rays of a wavefront
+    /// Scenes: broad, generic, dense, tame, spot, canonical, or the rays of a wavefront
     #[arg(long, value_name = "NAME|FILE.npz", default_value = "broad", conflicts_with = "adversarial")]
     set: Source,
     /// Medium of the rays of a wavefront: absorption and scattering coefficient [1/m] and mean cosine

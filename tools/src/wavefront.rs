@@ -2,6 +2,7 @@
 
 use crate::npy;
 use airlight::{Emitter, Emitters, Ray, Rays};
+use airlight_tools::families::{NO_CONE, emitter};
 use anyhow::{Context, Result, bail, ensure};
 use glam::Vec3;
 use std::io::{Cursor, Read};
@@ -22,7 +23,10 @@ pub(crate) struct Wavefront {
     t_min: Vec<f32>,
     t_max: Vec<f32>,
     position: [Vec<f32>; 3],
+    /// Normals, and axes of spots.
     normal: [Vec<f32>; 3],
+    /// `cos_outer` and `cos_inner`, if there are spots.
+    cones: Option<[Vec<f32>; 2]>,
     /// The variates of the first repetition.
     pub(crate) u: Vec<f32>,
 }
@@ -51,6 +55,7 @@ impl Wavefront {
             t_max: archive.column("t_max")?,
             position: archive.columns(["ex", "ey", "ez"])?,
             normal: archive.columns(["nx", "ny", "nz"])?,
+            cones: archive.cones()?,
             u: archive.column("u")?,
         };
         ensure!(wavefront.len() > 0, "the wavefront is empty: its columns have no values");
@@ -72,16 +77,18 @@ impl Wavefront {
 
     /// The emitters of the first `count` rays.
     pub(crate) fn emitters(&self, count: usize) -> Emitters<'_> {
-        Emitters::each(first(&self.position, count), first(&self.normal, count))
+        let (position, normal) = (first(&self.position, count), first(&self.normal, count));
+        match &self.cones {
+            Some([outer, inner]) => Emitters::each_spot(position, normal, &outer[..count], &inner[..count]),
+            None => Emitters::each(position, normal),
+        }
     }
 
     /// Ray number `i` and its emitter.
     pub(crate) fn ray(&self, i: usize) -> Result<(Ray, Emitter)> {
         let ray = Ray::new(vector(&self.origin, i), vector(&self.direction, i), self.t_min[i], self.t_max[i])?;
-        let (position, normal) = (vector(&self.position, i), vector(&self.normal, i));
-        let emitter =
-            if normal == Vec3::ZERO { Emitter::point(position)? } else { Emitter::point_normal(position, normal)? };
-        Ok((ray, emitter))
+        let cosines = self.cones.as_ref().map_or([NO_CONE; 2], |cones| cones.each_ref().map(|column| column[i]));
+        Ok((ray, emitter(vector(&self.position, i), vector(&self.normal, i), cosines)?))
     }
 
     /// The variate of ray number `i` in the first repetition.
@@ -123,6 +130,16 @@ impl<'a> Archive<'a> {
         Ok([self.column(x)?, self.column(y)?, self.column(z)?])
     }
 
+    /// The cosines of spots: both columns or none.
+    fn cones(&mut self) -> Result<Option<[Vec<f32>; 2]>> {
+        const NAMES: [&str; 2] = ["cos_outer", "cos_inner"];
+        if NAMES.iter().all(|name| self.zip.index_for_name(&entry_name(name)).is_none()) {
+            return Ok(None);
+        }
+        let [outer, inner] = NAMES;
+        Ok(Some([self.column(outer)?, self.column(inner)?]))
+    }
+
     fn column(&mut self, name: &'static str) -> Result<Vec<f32>> {
         let column = match self.file(name) {
             Ok(file) => npy::decode(&file),
@@ -150,7 +167,7 @@ impl<'a> Archive<'a> {
     }
 
     fn file(&mut self, name: &str) -> Result<Vec<u8>> {
-        let name = format!("{name}.npy");
+        let name = entry_name(name);
         ensure!(!self.repeated.contains(&name.as_bytes()), "is there more than once");
         let mut entry = match self.zip.by_name(&name) {
             Err(ZipError::FileNotFound) => bail!("is missing"),
@@ -165,6 +182,11 @@ impl<'a> Archive<'a> {
         entry.read_to_end(&mut file).context("the data are corrupt")?;
         Ok(file)
     }
+}
+
+/// What a column is called in an archive.
+fn entry_name(column: &str) -> String {
+    format!("{column}.npy")
 }
 
 /// The names that the directory of an archive has more than once.

@@ -1,6 +1,6 @@
 //! The built command, as it is met from outside.
 
-use airlight::{Emitters, Media, Medium, Precision, Rays, Sampler, Samples, Strategy};
+use airlight::{Emitter, Emitters, Media, Medium, Precision, Ray, Rays, Sampler, Samples, Strategy};
 use serde_json::Value;
 use std::fs;
 use std::io::{Cursor, Read, Write};
@@ -286,6 +286,47 @@ fn the_output_holds_the_samples_in_the_wavefronts_order() {
     let mut folder = names(folder.path());
     folder.sort();
     assert_eq!(folder, ["samples.npz", "w.npz"]);
+}
+
+/// The wavefront with cones for every other of its lamps.
+fn with_cones() -> Npz {
+    let column = |cosine: f32| (0..8).map(|i| if i % 2 == 1 { cosine } else { -1.0 }).collect::<Vec<_>>();
+    Npz::wavefront().with_all(&[("cos_outer", column(0.5)), ("cos_inner", column(0.75))])
+}
+
+#[test]
+fn columns_of_cosines_make_spots() {
+    let npz = with_cones();
+    let (folder, wavefront) = folder_with("w.npz", &npz.stored());
+    let output = folder.path().join("samples.npz");
+    let arguments = ["sample", &wavefront, "--strategy", "product-5", "--medium", "0.2,0.5,-0.3", "--rays", "8"];
+    let json = succeed(&[&arguments[..], &["--output", text(&output), "--json", "-"]].concat());
+    let weights = read(&output, "weight").1;
+    for (i, &weight) in weights[..7].iter().enumerate() {
+        let column = |name| npz.column(name)[i];
+        let ray = Ray::new([0.0; 3], [1.0, 0.0, 0.0], 0.0, 3.0).unwrap();
+        let position = [column("ex"), 1.0, 0.0];
+        let emitter =
+            if i % 2 == 1 { Emitter::spot(position, [0.0, -1.0, 0.0], 0.5, 0.75) } else { Emitter::point(position) };
+        let medium = Medium::new(0.2, 0.5, -0.3).unwrap();
+        let sample = Sampler::new(Strategy::Product5).sample_one(&ray, &emitter.unwrap(), &medium, column("u"));
+        assert_eq!(weight.to_bits(), sample.unwrap().weight.to_bits(), "ray {i}");
+    }
+    let row = &serde_json::from_str::<Value>(&json).unwrap()["results"][0];
+    assert_eq!((&row["sampled"], &row["invalid"], &row["check_rays"]), (&7.into(), &1.into(), &7.into()), "{row}");
+    assert!(row["check_z"].as_f64().unwrap().abs() < 5.0, "{row}");
+
+    for (missing, told) in
+        [("cos_outer", "column 'cos_outer': is missing"), ("cos_inner", "column 'cos_inner': is missing")]
+    {
+        let (_folder, wavefront) = folder_with("bad.npz", &npz.clone().without(missing).stored());
+        assert!(fail(&["sample", &wavefront, "--rays", "8"]).contains(told), "{missing}");
+    }
+    // A cone of half of the cosines is none.
+    let (_folder, wavefront) = folder_with("w.npz", &npz.with_all(&[("cos_inner", vec![-1.0; 8])]).stored());
+    let figures: Value = serde_json::from_str(&succeed(&["sample", &wavefront, "--rays", "8", "--json", "-"])).unwrap();
+    let reason = "cos_inner is -1, expected cos_outer <= cos_inner <= 1";
+    assert_eq!(figures["invalid_rays"], serde_json::json!({ "count": 4, "first": 1, "reason": reason }));
 }
 
 #[test]

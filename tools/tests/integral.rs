@@ -78,7 +78,7 @@ fn the_table_explains_itself() {
 #[test]
 fn a_refused_argument_is_named() {
     for (arguments, told) in [
-        (["--set", "narrow"], "no set is called 'narrow'; there are generic, broad, dense, tame and canonical"),
+        (["--set", "narrow"], "no set is called 'narrow'; there are generic, broad, dense, tame, spot and canonical"),
         (["--scenes", "0"], "at least 1"),
         (["--precision", "exacter"], "no precision is called 'exacter'"),
     ] {

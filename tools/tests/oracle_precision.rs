@@ -48,7 +48,8 @@ fn the_oracle_is_as_exact_as_f64_allows() {
     let (mut report, mut failures) = (format!("{:15}", "largest error"), Vec::new());
     QUANTITIES.iter().for_each(|(quantity, _)| write!(report, " {quantity:>9}").unwrap());
     write!(report, " {:>9}", "excused").unwrap();
-    for family in Family::ALL {
+    // The reference has no cones: those have a test of their own.
+    for family in Family::ALL.into_iter().filter(|family| *family != Family::Spot) {
         let cases = lit_cases(family);
         let (errors, excused): (Vec<_>, Vec<_>) =
             cases.par_iter().enumerate().map(|(i, (_, case))| Comparison::new(case, i).errors()).unzip();

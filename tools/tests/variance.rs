@@ -75,6 +75,18 @@ fn a_wavefront_is_a_set() {
     assert!(rows[0]["mean"].as_f64().unwrap() < 0.1 * rows[1]["mean"].as_f64().unwrap(), "{rows:?}");
 }
 
+/// Means, and all of equi-angular's is above them.
+#[test]
+fn product_densities_follow_the_falloff_of_spots() {
+    for seed in ["3", "4"] {
+        let strategies = ["product-5", "product-9", "equi-angular"].map(|name| ["--strategy", name]);
+        let rows = json(&[&["--set", "spot", "--seed", seed], strategies.as_flattened()].concat());
+        let means = [0, 1, 2].map(|i| rows[i]["mean"].as_f64().unwrap());
+        assert!(means[0] <= 0.02 && means[1] <= 0.005 && means[2] > 0.1, "seed {seed}: {means:?}");
+        assert_eq!((&rows[0]["set"], &rows[0]["invalid"]), (&Value::from("spot"), &Value::from(0)));
+    }
+}
+
 #[test]
 fn the_table_comes_with_json_in_a_file() {
     let folder = TempDir::new().unwrap();
@@ -93,7 +105,7 @@ fn the_table_comes_with_json_in_a_file() {
 #[test]
 fn a_refused_argument_is_named() {
     for (arguments, told) in [
-        (&["--set", "narrow"][..], "no set is called 'narrow'; there are broad, generic, dense, tame, canonical"),
+        (&["--set", "narrow"][..], "no set is called 'narrow'; there are broad, generic, dense, tame, spot, canonical"),
         (&["--set", "no-such-wavefront.npz"], "cannot read no-such-wavefront.npz"),
         (&["--scenes", "0"], "at least 1"),
         (&["--strategy", "product-4"], "no strategy is called 'product-4'"),

@@ -16,8 +16,10 @@ pub(super) struct Line {
     /// The lit part, from the foot of the perpendicular on; empty where the first is not less than the second.
     a: f64,
     b: f64,
-    /// `N r` at the foot and its slope, with a normal.
+    /// `N r` at the foot and its slope, with a normal; of a spot that of the cosine to its axis.
     cosine: Option<(f64, f64)>,
+    /// The cosines of a spot, outer and inner.
+    cone: Option<[f64; 2]>,
     mu_s: f64,
     mu_t: f64,
     g: f64,
@@ -35,13 +37,16 @@ impl Line {
         let foot = d * t_h - w;
         let (t_min, t_max) = (f64::from(ray.t_min()), f64::from(ray.t_max().min(FARTHEST)));
         let (mut a, mut b) = (t_min - t_h, t_max - t_h);
-        let cosine = emitter.normal().map(vector).map(|n| (n.dot(foot), n.dot(d)));
-        if let Some((at_foot, slope)) = cosine {
-            let dark = -at_foot / slope;
-            if slope > 0.0 { a = a.max(dark) } else { b = b.min(dark) }
+        let h = foot.length();
+        let axis = emitter.cone().map(|cone| vector(cone.axis()).normalize());
+        let cosine = emitter.normal().map(vector).or(axis).map(|n| (n.dot(foot), n.dot(d)));
+        let cone = emitter.cone().map(|cone| [cone.cos_outer(), cone.cos_inner()].map(f64::from));
+        if let Some(cosine) = cosine {
+            let (start, end) = inside(cosine, cone.map_or(0.0, |[outer, _]| outer), h);
+            (a, b) = (a.max(start), b.min(end));
         }
         let [mu_s, mu_t, g] = [medium.mu_s(), medium.mu_t(), medium.g()].map(f64::from);
-        Self { h: foot.length(), t_h, t_min, a, b, cosine, mu_s, mu_t, g }
+        Self { h, t_h, t_min, a, b, cosine, cone, mu_s, mu_t, g }
     }
 
     /// `mu_s T rho N` at `t' = t - t_h`, and `r^2`.
@@ -51,7 +56,8 @@ impl Line {
         let transmittance = (-self.mu_t * (t_prime + self.t_h - self.t_min + r)).exp();
         let d = 1.0 + self.g * self.g + 2.0 * self.g * (t_prime / r);
         let rho = (1.0 - self.g * self.g) / (4.0 * PI * d * d.sqrt());
-        let n = self.cosine.map_or(1.0, |(at_foot, slope)| ((at_foot + slope * t_prime) / r).max(0.0));
+        let cosine = self.cosine.map_or(1.0, |(at_foot, slope)| ((at_foot + slope * t_prime) / r).max(0.0));
+        let n = self.cone.map_or(cosine, |cone| falloff(cosine, cone));
         (self.mu_s * transmittance * rho * n, r2)
     }
 
@@ -63,6 +69,29 @@ impl Line {
     fn over_angle(&self, theta: f64) -> f64 {
         self.integrand(self.h * theta.tan()).0 / self.h
     }
+}
+
+/// Where the cosine, `m/r` with `m = at_foot + slope t'`, is above `c`: `m^2 - c^2 (h^2 + t'^2)` is a quadratic in `t'`, positive
+/// in both halves of the double cone.
+fn inside((at_foot, slope): (f64, f64), c: f64, h: f64) -> (f64, f64) {
+    const NOWHERE: (f64, f64) = (f64::INFINITY, f64::NEG_INFINITY);
+    let (square, half, rest) = (slope * slope - c * c, at_foot * slope, at_foot * at_foot - c * c * h * h);
+    let root = (half * half - square * rest).max(0.0).sqrt();
+    let [first, second] = [(-half - root) / square, (root - half) / square];
+    if square > 0.0 {
+        // A line that is steeper than the cone meets both halves.
+        if slope > 0.0 { (second, f64::INFINITY) } else { (f64::NEG_INFINITY, first) }
+    } else if root > 0.0 && at_foot - slope * half / square > 0.0 {
+        (second, first)
+    } else {
+        NOWHERE
+    }
+}
+
+/// Smoothstep between the cosines of a spot; 1 above both.
+fn falloff(cosine: f64, [outer, inner]: [f64; 2]) -> f64 {
+    let s = if cosine < inner { ((cosine - outer) / (inner - outer)).max(0.0) } else { 1.0 };
+    s * s * (3.0 - 2.0 * s)
 }
 
 /// A rule: places in \[0, 1\] of the interval and their weights.
@@ -154,7 +183,7 @@ mod tests {
 
     #[test]
     fn every_rule_is_near_the_integral() {
-        for (case, _) in Set::Tame.cases(1, 50) {
+        for (case, _) in Set::Tame.cases(1, 50).into_iter().chain(Set::Spot.cases(1, 50)) {
             let parts = case.parts().unwrap();
             let (line, radiance) = (Line::new(&parts), Scene::new(&parts.0, &parts.1, &parts.2).radiance());
             let many: Vec<(f64, f64)> = (0..48).map(|i| gauss_legendre(48, i)).collect();

@@ -27,7 +27,7 @@ impl FromStr for Source {
                 Ok(Self::File(path.to_owned()))
             }
             None => Err(format!(
-                "no set is called '{name}'; there are broad, generic, dense, tame, canonical, and any FILE.npz of a wavefront"
+                "no set is called '{name}'; there are broad, generic, dense, tame, spot, canonical, and any FILE.npz of a wavefront"
             )),
         }
     }
