@@ -146,7 +146,7 @@ fn any_choice_of_outputs() {
         for (with_weight, with_r) in [(false, false), (true, false), (false, true)] {
             let mut drawn = Drawn::new(n);
             let mut samples = drawn.samples();
-            samples.weight = samples.weight.filter(|_| with_weight);
+            samples.weights[0] = samples.weights[0].take().filter(|_| with_weight);
             samples.r = samples.r.filter(|_| with_r);
             sampler.sample(&rays, &emitters, &media, columns.given(), &mut samples).unwrap();
             for (i, expected) in alone.iter().enumerate() {
