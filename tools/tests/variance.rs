@@ -105,7 +105,10 @@ fn the_table_comes_with_json_in_a_file() {
 #[test]
 fn a_refused_argument_is_named() {
     for (arguments, told) in [
-        (&["--set", "narrow"][..], "no set is called 'narrow'; there are broad, generic, dense, tame, spot, canonical"),
+        (
+            &["--set", "narrow"][..],
+            "no set is called 'narrow'; there are broad, generic, dense, tame, spot, colour, colour-strong, canonical",
+        ),
         (&["--set", "no-such-wavefront.npz"], "cannot read no-such-wavefront.npz"),
         (&["--scenes", "0"], "at least 1"),
         (&["--strategy", "product-4"], "no strategy is called 'product-4'"),
