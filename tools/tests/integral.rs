@@ -43,6 +43,18 @@ fn json_has_a_row_for_every_set_and_rule() {
     }
 }
 
+/// Of every channel of a coloured medium, by all rules.
+#[test]
+fn every_channel_is_compared() {
+    let rows = rows(&["--set", "colour-strong", "--scenes", "200", "--seed", "7"]);
+    assert_eq!(rows.len(), RULES.len());
+    for row in &rows {
+        assert_eq!((&row["scenes"], &row["compared"]), (&Value::from(200), &Value::from(600)), "{row}");
+    }
+    let median = |i: usize| rows[i]["median"].as_f64().unwrap();
+    assert!(median(3) < 1e-6 && median(2) < 1e-6 && median(9) < 1e-2, "{rows:#?}");
+}
+
 /// Median and 99th percentile; no plain rule of as many nodes has them on all sets.
 #[test]
 fn errors_are_as_promised() {
