@@ -90,7 +90,10 @@ fn the_table_explains_itself() {
 #[test]
 fn a_refused_argument_is_named() {
     for (arguments, told) in [
-        (["--set", "narrow"], "no set is called 'narrow'; there are generic, broad, dense, tame, spot, colour, colour-strong and canonical"),
+        (
+            ["--set", "narrow"],
+            "no set is called 'narrow'; there are generic, broad, dense, tame, spot, colour, colour-strong and canonical",
+        ),
         (["--scenes", "0"], "at least 1"),
         (["--precision", "exacter"], "no precision is called 'exacter'"),
     ] {
