@@ -42,9 +42,7 @@ impl Contender {
             Self::PaperBest => scene.relative_variance_of_paper_best(),
         }
     }
-}
 
-impl Contender {
     /// The mean of it over the channels of a medium, if anything is lit. None of the paper's best in more than one channel:
     /// it follows the transmittance of one.
     #[must_use]

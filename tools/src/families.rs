@@ -484,9 +484,7 @@ impl Case {
         }
         case
     }
-}
 
-impl Case {
     fn colour(draw: &mut Draw) -> Self {
         let case = match draw.below(4) {
             0 => Self::near_emitter(draw),
@@ -496,10 +494,7 @@ impl Case {
         let equal = draw.below(8) == 0;
         let mut mu_a = [case.mu_a; CHANNELS];
         let mut mu_s = [case.mu_s; CHANNELS];
-        for c in 0..CHANNELS {
-            if equal {
-                continue;
-            }
+        for c in if equal { 0..0 } else { 0..CHANNELS } {
             let mu_t = (case.mu_a + case.mu_s) * draw.log_between(0.1, 10.0);
             mu_s[c] = mu_t * if draw.below(8) == 0 { 0.0 } else { draw.uniform() };
             mu_a[c] = mu_t - mu_s[c];

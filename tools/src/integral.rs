@@ -11,7 +11,7 @@ use crate::profile::clock::{nanoseconds, warm_up};
 use crate::profile::rounds::take_turns;
 use crate::progress::Part;
 use crate::{output, progress};
-use airlight::oracle::Scene;
+use airlight::oracle::{Coloured, Scene};
 use airlight::{Integral, Nodes, Precision};
 use airlight_tools::errors::is_comparable;
 use airlight_tools::families::{CHANNELS, Case, Columns};
@@ -81,7 +81,7 @@ fn measure(args: &Args, progress: Part<'_>) -> Result<Figures> {
             let radiance = scene.radiance();
             is_comparable(scene, radiance).then_some(radiance)
         };
-        let truth: Vec<Option<f64>> = scenes.par_iter().flat_map_iter(|scene| scene.channels()).map(truth).collect();
+        let truth: Vec<Option<f64>> = scenes.par_iter().flat_map_iter(Coloured::channels).map(truth).collect();
         let batch = Batch::new(&cases)?;
         let rules = one.install(|| take_turns(Rule::all(args.precision), ROUNDS, |rule| rule.time(&batch)))?;
         for (rule, times) in rules {
