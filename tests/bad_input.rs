@@ -4,7 +4,7 @@
 mod scenes;
 
 use airlight::{
-    Counts, Emitter, Error, FARTHEST, Integral, Media, Medium, Nodes, Ray, Sampler, Strategy, UNIT_TOLERANCE,
+    Counts, Emitter, Error, FARTHEST, Integral, Media, Medium, Nodes, Ray, Sampler, Samples, Strategy, UNIT_TOLERANCE,
 };
 use glam::Vec3;
 use scenes::{Case, Columns, Drawn, Random, Row};
@@ -65,7 +65,7 @@ fn output_of_another_length_is_named() {
     let (rays, emitters, media) = (columns.rays(0..N), columns.emitters(0..N), columns.media(0..N));
     let sampler = Sampler::new(Strategy::PointNormal);
     for other in [0, N - 1, N + 1] {
-        for (k, name) in ["samples.t", "samples.pdf", "samples.weight", "samples.r"].into_iter().enumerate() {
+        for (k, name) in ["samples.t", "samples.pdf", "samples.weights", "samples.r"].into_iter().enumerate() {
             let mut drawn = Drawn::new(N);
             let columns_out = [&mut drawn.t, &mut drawn.pdf, &mut drawn.weight, &mut drawn.r];
             columns_out.into_iter().nth(k).unwrap().resize(other, f32::NAN);
@@ -182,31 +182,181 @@ fn parameters_at_the_end_of_their_range_are_accepted() {
     }
 }
 
-/// Nothing takes a coloured medium for a grey one.
-#[test]
-fn coloured_media_have_no_kernel() {
-    let columns = Columns::random(&mut Random::new(SEED), 9);
-    let medium = Medium::coloured([0.1; 3], [0.2, 0.3, 0.4], 0.0).unwrap();
-    let (coloured, index, emitters) = ([medium], [0; 9], &columns.emitters(0..9));
-    let refused = [Media::one(medium), Media::table(&coloured, &index)];
-    for (&strategy, media) in Strategy::ALL.iter().flat_map(|s| refused.iter().map(move |media| (s, media))) {
-        let (sampler, rays, expected) =
-            (Sampler::new(strategy), columns.rays(0..9), Err("there are no kernels for coloured media".to_owned()));
-        let (mut drawn, mut out, u) = (Drawn::new(9), [f32::NAN; 9], columns.given());
-        assert_eq!(said(sampler.sample(&rays, emitters, media, u, &mut drawn.samples())), expected);
-        assert_eq!(said(sampler.pdf(&rays, emitters, media, u, &mut out)), expected);
-        assert_eq!(said(sampler.cdf(&rays, emitters, media, u, &mut out)), expected);
-        assert_eq!(said(sampler.evaluate(&rays, emitters, media, u, &mut out)), expected);
-        assert_eq!(said(Integral::new(Nodes::Eight).radiance(&rays, emitters, media, &mut out)), expected);
-        let written = [&drawn.t, &drawn.pdf, &drawn.weight, &drawn.r].map(|column| &column[..]).concat();
-        assert!(written.iter().chain(&out).all(|x| x.is_nan()));
+/// Calls with so many columns of weights, integrands or radiances.
+fn said_of_columns<const C: usize>(columns: &Columns, media: &Media<'_>) -> [Result<Counts, Error>; 3] {
+    let (n, sampler, integral) = (columns.len(), Sampler::new(Strategy::Product5), Integral::new(Nodes::Eight));
+    let (rays, emitters, given) = (columns.rays(0..n), columns.emitters(0..n), columns.given());
+    let [mut weights, mut integrands, mut radiances] = [(); 3].map(|()| [(); C].map(|()| vec![f32::NAN; n]));
+    let (mut t, mut pdf) = (vec![f32::NAN; n], vec![f32::NAN; n]);
+    let mut samples = Samples::new(&mut t, &mut pdf).weights(weights.each_mut().map(Vec::as_mut_slice));
+    let results = [
+        sampler.sample(&rays, &emitters, media, given, &mut samples),
+        sampler.evaluate_coloured(&rays, &emitters, media, given, integrands.each_mut().map(Vec::as_mut_slice)),
+        integral.radiance_coloured(&rays, &emitters, media, radiances.each_mut().map(Vec::as_mut_slice)),
+    ];
+    for (result, columns) in results.iter().zip([&weights, &integrands, &radiances]) {
+        let written = columns.iter().flatten().any(|x| !x.is_nan());
+        assert_eq!(written, result.is_ok() && C > 0, "{result:?}");
     }
-    let (Case { ray, emitter, .. }, sampler) = (good(), Sampler::new(Strategy::Product5));
-    assert_eq!(sampler.sample_one(&ray, &emitter, &medium, 0.5), None);
-    assert_eq!(sampler.pdf_one(&ray, &emitter, &medium, 1.0), 0.0);
-    assert_eq!(sampler.cdf_one(&ray, &emitter, &medium, 1.0), 0.0);
-    assert_eq!(sampler.evaluate_one(&ray, &emitter, &medium, 1.0), 0.0);
-    assert_eq!(Integral::new(Nodes::Eight).radiance_one(&ray, &emitter, &medium), 0.0);
+    results
+}
+
+/// Nothing takes a coloured medium for a grey one, or the reverse.
+#[test]
+fn another_number_of_columns_than_channels_is_named() {
+    let columns = Columns::random(&mut Random::new(SEED), 9);
+    let (rgb, four) = (rgb(), Medium::coloured([0.1; 4], [0.2, 0.3, 0.4, 0.5], 0.0).unwrap());
+    let (table, index) = ([rgb; 2], [0; 9]);
+    for (media, channels) in
+        [(columns.media(0..9), 1), (Media::one(rgb), 3), (Media::table(&table, &index), 3), (Media::one(four), 4)]
+    {
+        for (columns, results) in [
+            (1, said_of_columns::<1>(&columns, &media)),
+            (2, said_of_columns::<2>(&columns, &media)),
+            (3, said_of_columns::<3>(&columns, &media)),
+            (4, said_of_columns::<4>(&columns, &media)),
+        ] {
+            for (result, name) in results.into_iter().zip(["samples.weights", "integrand", "radiance"]) {
+                if columns == channels {
+                    assert!(result.is_ok(), "{name}, {channels} channels: {result:?}");
+                    continue;
+                }
+                let Err(Error::Channels { field, index, channels: found, expected, .. }) = result else {
+                    panic!("{name}, {columns} columns for {channels} channels: {result:?}");
+                };
+                assert_eq!((field, index, found, expected), (name, None, columns, channels));
+                let plural = if columns == 1 { "" } else { "s" };
+                assert_eq!(said(result), Err(format!("{name} has {columns} channel{plural}, expected {channels}")));
+            }
+        }
+        // Weights may be left out.
+        assert!(said_of_columns::<0>(&columns, &media)[0].is_ok());
+        // One column is what `evaluate` and `radiance` write.
+        let (rays, emitters, mut out) = (columns.rays(0..9), columns.emitters(0..9), [f32::NAN; 9]);
+        let expected = |name: &str| Err(format!("{name} has 1 channel, expected {channels}"));
+        let evaluated = Sampler::new(Strategy::Product9).evaluate(&rays, &emitters, &media, columns.given(), &mut out);
+        assert!(channels == 1 || said(evaluated) == expected("integrand"), "{evaluated:?}");
+        let integrated = Integral::new(Nodes::Four).radiance(&rays, &emitters, &media, &mut out);
+        assert!(channels == 1 || said(integrated) == expected("radiance"), "{integrated:?}");
+    }
+}
+
+#[test]
+fn a_number_of_channels_that_there_is_not_is_named() {
+    fn said_of<const C: usize>(columns: &Columns) -> Result<Counts, Error> {
+        let (n, mu) = (columns.len(), vec![0.1; columns.len()]);
+        let media = Media::each_coloured([&mu; C], [&mu; C], &mu);
+        let (rays, emitters, mut pdf) = (columns.rays(0..n), columns.emitters(0..n), vec![0.0; n]);
+        Sampler::new(Strategy::EquiAngular).pdf(&rays, &emitters, &media, columns.given(), &mut pdf)
+    }
+    let columns = Columns::random(&mut Random::new(SEED), 9);
+    for good in [said_of::<1>(&columns), said_of::<3>(&columns), said_of::<4>(&columns)] {
+        assert!(good.is_ok(), "{good:?}");
+    }
+    for (channels, result) in
+        [(0.0, said_of::<0>(&columns)), (2.0, said_of::<2>(&columns)), (5.0, said_of::<5>(&columns))]
+    {
+        assert_refused(result, "channels", channels);
+        assert_eq!(said(result), Err(format!("channels is {channels}, expected 1, 3 or 4")));
+    }
+}
+
+#[test]
+fn channels_that_differ_in_a_table_are_named() {
+    let columns = Columns::random(&mut Random::new(SEED), 9);
+    let (rays, emitters, index, mut pdf) = (columns.rays(0..9), columns.emitters(0..9), [0; 9], [f32::NAN; 9]);
+    let four = Medium::coloured([0.1; 4], [0.2; 4], 0.0).unwrap();
+    for (table, entry, channels, expected) in [
+        ([rgb(), rgb(), good().medium], 2, 1, 3),
+        ([good().medium, rgb(), rgb()], 0, 1, 3),
+        ([four, rgb(), four], 1, 3, 4),
+    ] {
+        let media = Media::table(&table, &index);
+        let result = Sampler::new(Strategy::Product5).pdf(&rays, &emitters, &media, columns.given(), &mut pdf);
+        let Err(Error::Channels { field, index, channels: found, expected: most, .. }) = result else {
+            panic!("{table:?}: {result:?}");
+        };
+        assert_eq!((field, index, found, most), ("media.table", Some(entry), channels, expected));
+        let plural = if channels == 1 { "" } else { "s" };
+        let text = format!("media.table[{entry}] has {channels} channel{plural}, expected {expected}");
+        assert_eq!(said(result), Err(text));
+        assert!(pdf.iter().all(|pdf| pdf.is_nan()));
+    }
+}
+
+/// A medium of three channels.
+fn rgb() -> Medium {
+    Medium::coloured([0.1, 0.2, 0.0], [0.3, 0.1, 1.0], 0.5).unwrap()
+}
+
+/// `mu_a` of three channels, then `mu_s`.
+type Channels = [Vec<f32>; 6];
+
+/// All that is written for a ray in three channels: `t`, `pdf`, `r`, weights; the density and the integrands at another
+/// distance; radiances.
+type Written = [u32; 13];
+
+fn write(strategy: Strategy, columns: &Columns, channels: &Channels) -> (Vec<Written>, [Counts; 4]) {
+    let n = columns.len();
+    let mut out: [Vec<f32>; 13] = std::array::from_fn(|_| vec![f32::NAN; n]);
+    let [t, pdf, r, w_0, w_1, w_2, p, f_0, f_1, f_2, l_0, l_1, l_2] = &mut out;
+    let [a_0, a_1, a_2, s_0, s_1, s_2] = channels;
+    let media = Media::each_coloured([a_0, a_1, a_2], [s_0, s_1, s_2], &columns.0[Columns::index("media.g")]);
+    let (sampler, rays, emitters) = (Sampler::new(strategy), columns.rays(0..n), columns.emitters(0..n));
+    let mut samples = Samples::new(t, pdf).r(r).weights([w_0, w_1, w_2]);
+    let at = vec![2.0; n];
+    let counts = [
+        sampler.sample(&rays, &emitters, &media, columns.given(), &mut samples),
+        sampler.pdf(&rays, &emitters, &media, &at, p),
+        sampler.evaluate_coloured(&rays, &emitters, &media, &at, [f_0, f_1, f_2]),
+        Integral::new(Nodes::Six).radiance_coloured(&rays, &emitters, &media, [l_0, l_1, l_2]),
+    ];
+    let rows = (0..n).map(|i| out.each_ref().map(|column| column[i].to_bits())).collect();
+    (rows, counts.map(Result::unwrap))
+}
+
+/// A coefficient that is none makes its ray invalid, in any channel, and disturbs no neighbour.
+#[test]
+fn a_channel_that_is_none_is_counted_and_gets_zeros() {
+    const N: usize = 19;
+    const BAD: usize = 7;
+    let columns = Columns::new((0..N).map(|_| (good(), 0.5)));
+    let channels: Channels = std::array::from_fn(|k| (0..N).map(|i| 0.1 + 0.01 * (k * N + i) as f32).collect());
+    for &strategy in Strategy::ALL {
+        let (expected, counts) = write(strategy, &columns, &channels);
+        assert_eq!(counts.map(|counts| counts.sampled), [N; 4], "{strategy}");
+        let values = NO_NUMBER.into_iter().chain([-0.1, -f32::from_bits(1), -1e30]);
+        let one = values.flat_map(|value| (0..6).map(move |k| vec![(k, value)]));
+        // No sum, and cancelling ones.
+        let two = (0..3).flat_map(|c| [f32::MAX, -0.2].map(|value| vec![(c, value), (3 + c, value.abs().max(0.5))]));
+        for fields in one.chain(two) {
+            let mut bad = channels.clone();
+            fields.iter().for_each(|&(k, value)| bad[k][BAD] = value);
+            let (written, counts) = write(strategy, &columns, &bad);
+            for (i, row) in written.iter().enumerate() {
+                let expected = if i == BAD { &[0; 13] } else { &expected[i] };
+                assert_eq!(row, expected, "{strategy}: ray {i} with {fields:?} in {BAD}");
+            }
+            for counts in counts {
+                assert_eq!((counts.sampled, counts.invalid), (N - 1, 1), "{strategy}: {fields:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn columns_of_channels_of_another_length_are_named() {
+    let columns = Columns::random(&mut Random::new(SEED), 9);
+    let (rays, emitters, mut pdf) = (columns.rays(0..9), columns.emitters(0..9), [f32::NAN; 9]);
+    let names = ["mu_a[0]", "mu_a[1]", "mu_a[2]", "mu_s[0]", "mu_s[1]", "mu_s[2]", "g"];
+    for (k, name) in names.into_iter().enumerate() {
+        let mut of_media: [Vec<f32>; 7] = std::array::from_fn(|_| vec![0.1; 9]);
+        of_media[k].truncate(8);
+        let [a_0, a_1, a_2, s_0, s_1, s_2, g] = &of_media;
+        let media = Media::each_coloured([a_0, a_1, a_2], [s_0, s_1, s_2], g);
+        let result = Sampler::new(Strategy::Product9).pdf(&rays, &emitters, &media, columns.given(), &mut pdf);
+        assert_eq!(said(result), Err(length(&format!("media.{name}"), 8, 9)));
+    }
 }
 
 /// A case that every strategy samples.

@@ -96,6 +96,11 @@ fn cones_of_spots() {
     holds(Family::Spot);
 }
 
+#[test]
+fn channels_of_coloured_media() {
+    holds(Family::Colour);
+}
+
 /// `N` is about `grade` all along the ray, 0 at t = 2: its squares leave f32, then its products, then `1/beta`.
 #[test]
 fn emitters_seen_edge_on() {

@@ -9,7 +9,7 @@ use airlight::{
     Backend, Counts, Emitter, Emitters, Integral, Media, Medium, Nodes, Precision, Ray, Rays, UnknownNodes,
 };
 use airlight_tools::errors::{grazes_a_cone, is_comparable, quantile};
-use airlight_tools::families::{Case, Columns, Family};
+use airlight_tools::families::{CHANNELS, Case, Columns, Family};
 use glam::Vec3;
 use scenes::Random;
 use std::ops::Range;
@@ -40,10 +40,9 @@ fn text(values: Bounds) -> String {
 
 fn radiances(integral: &Integral, cases: &[Case]) -> (Vec<f32>, Counts) {
     let columns = Columns::new(cases);
-    let mut radiances = vec![f32::NAN; cases.len()];
-    let (rays, emitters, media) = (columns.rays(), columns.emitters(), columns.media());
-    let counts = integral.radiance(&rays, &emitters, &media, &mut radiances).unwrap();
-    (radiances, counts)
+    let mut radiances = [(); CHANNELS].map(|()| vec![f32::NAN; cases.len()]);
+    let counts = columns.integrate(integral, &mut radiances).unwrap();
+    (cases.iter().enumerate().map(|(i, case)| radiances[case.channel()][i]).collect(), counts)
 }
 
 /// The cases of a family, with the scenes and the radiances of those that are valid and of resolved size.

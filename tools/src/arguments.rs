@@ -72,12 +72,28 @@ pub(crate) fn parse<A: clap::Args>(line: &[String]) -> Result<A> {
     Ok(A::from_arg_matches(&command.try_get_matches_from(line)?)?)
 }
 
-/// Reads a medium written as `mu_a,mu_s,g`.
+/// Reads a medium written as `mu_a,mu_s,g`, with `r:g:b` or four numbers for a coefficient that differs from channel to channel.
 pub(crate) fn medium(text: &str) -> Result<Medium, String> {
-    let numbers: Result<Vec<f32>, _> = text.split(',').map(|number| number.trim().parse()).collect();
-    match numbers.as_deref() {
-        Ok(&[mu_a, mu_s, g]) => Medium::new(mu_a, mu_s, g).map_err(|error| error.to_string()),
-        _ => Err("expected three numbers: mu_a,mu_s,g".to_owned()),
+    let expected =
+        || "expected three numbers: mu_a,mu_s,g, with r:g:b for a coefficient of a coloured medium".to_owned();
+    let numbers = |text: &str| text.split(':').map(|number| number.trim().parse().ok()).collect::<Option<Vec<f32>>>();
+    let numbers: Option<Vec<Vec<f32>>> = text.split(',').map(numbers).collect();
+    let Some([mu_a, mu_s, g]) = numbers.as_deref() else { return Err(expected()) };
+    let &[g] = &g[..] else { return Err(expected()) };
+    let medium = match mu_a.len().max(mu_s.len()) {
+        1 => Medium::new(mu_a[0], mu_s[0], g),
+        3 => Medium::coloured(channels::<3>(mu_a)?, channels(mu_s)?, g),
+        4 => Medium::coloured(channels::<4>(mu_a)?, channels(mu_s)?, g),
+        _ => return Err(expected()),
+    };
+    medium.map_err(|error| error.to_string())
+}
+
+/// As many values as the medium has channels, or one for all of them.
+fn channels<const C: usize>(values: &[f32]) -> Result<[f32; C], String> {
+    match values {
+        [one] => Ok([*one; C]),
+        values => values.try_into().map_err(|_| format!("a coefficient has {} channels, expected {C}", values.len())),
     }
 }
 

@@ -87,7 +87,7 @@ fn exact(strategy: Strategy, family: Family) -> Vec<Bound> {
         };
         bounds.push(Bound { figure: "pdf_p9999", read: |e| high_quantile(&e.pdf, 0.9999), limit });
     }
-    if matches!(family, Family::NearEmitter | Family::Spot) {
+    if matches!(family, Family::NearEmitter | Family::Spot | Family::Colour) {
         // f64 leaves the foot of the perpendicular about 4e-16 of the distance. Over the least h, 1e-9 of it, that is 4e-7 of N,
         // and of an N of 1e-3 thousands of ulp, which few rays come near: in 2^20 rays 8 at p99.9, and up to 490; of 2^16 rays
         // 19 were seen at p99.9.

@@ -2,7 +2,7 @@
 
 use crate::strata::Strata;
 use crate::wavefront::Wavefront;
-use airlight::oracle::Scene;
+use airlight::oracle::Coloured;
 use airlight::{Medium, Strategy};
 use airlight_tools::variates;
 use rayon::prelude::*;
@@ -16,8 +16,8 @@ const RESOLUTION: f64 = 4.0 * f32::EPSILON as f64;
 pub(crate) struct Check {
     /// The rays, in ascending order.
     pub(crate) rays: Vec<usize>,
-    /// Their scenes and radiances by quadrature.
-    scenes: Vec<(Scene, f64)>,
+    /// Their scenes and radiances by quadrature, in every channel.
+    scenes: Vec<(Coloured, Vec<f64>)>,
 }
 
 /// A strategy's estimate beside the quadrature.
@@ -48,31 +48,36 @@ impl Check {
         let drawn = spread(valid.len(), count.min(valid.len()), 0);
         let scene = |i: usize| {
             let (ray, emitter) = wavefront.ray(valid[i]).ok()?;
-            let scene = Scene::new(&ray, &emitter, medium);
-            Some((valid[i], (scene, scene.radiance())))
+            let scene = Coloured::new(&ray, &emitter, medium);
+            let radiances = scene.radiance();
+            Some((valid[i], (scene, radiances)))
         };
         let (rays, scenes) = drawn.into_par_iter().filter_map(scene).unzip();
         Self { rays, scenes }
     }
 
-    /// What `strategy` made of the subset; none if that is empty.
-    pub(crate) fn compare(&self, strategy: Strategy, strata: &Strata) -> Option<Comparison> {
+    /// What `strategy` made of the subset in every channel, of which there are strata; none if it is empty.
+    pub(crate) fn compare(&self, strategy: Strategy, strata: &[Strata]) -> Vec<Option<Comparison>> {
         let count = self.rays.len() as f64;
-        let quadrature = self.scenes.iter().map(|(_, radiance)| radiance).sum::<f64>() / count;
-        let of_mean = |(&i, (scene, radiance)): (&usize, &(Scene, f64))| {
-            // By quadrature: a weight with a heavy tail hides its variance from its own samples.
-            Some(scene.relative_variance(strategy)? * radiance * radiance / strata.samples(i))
+        // By quadrature: a weight with a heavy tail hides its variance from its own samples. Collected before they are summed:
+        // the order must not depend on the threads.
+        let variances: Vec<_> = self.scenes.par_iter().map(|(scene, _)| scene.relative_variance(strategy)).collect();
+        let of_channel = |(c, strata): (usize, &Strata)| {
+            let radiance = |i: usize| self.scenes[i].1[c];
+            let quadrature = (0..self.rays.len()).map(radiance).sum::<f64>() / count;
+            let of_mean = |(i, variances): (usize, &Option<Vec<f64>>)| {
+                Some(variances.as_ref()?[c] * radiance(i) * radiance(i) / strata.samples(self.rays[i]))
+            };
+            // The sum of no numbers is -0.
+            let stderr = (0.0 + variances.iter().enumerate().filter_map(of_mean).sum::<f64>()).sqrt() / count;
+            Some(Comparison { estimate: strata.of(&self.rays).mean?, stderr, quadrature })
         };
-        // Collected before it is summed: the order must not depend on the threads.
-        let variances: Vec<f64> = self.rays.par_iter().zip(&self.scenes).filter_map(of_mean).collect();
-        // The sum of no numbers is -0.
-        let stderr = (0.0 + variances.iter().sum::<f64>()).sqrt() / count;
-        Some(Comparison { estimate: strata.of(&self.rays).mean?, stderr, quadrature })
+        strata.iter().enumerate().map(of_channel).collect()
     }
 
     /// `|CDF(t) - u|` of the rays that have a sample, in ascending order.
     pub(crate) fn cdf_errors(&self, strategy: Strategy, u: &[f32], t: &[f32], pdf: &[f32]) -> Vec<f64> {
-        let error = |(&i, (scene, _)): (&usize, &(Scene, f64))| {
+        let error = |(&i, (scene, _)): (&usize, &(Coloured, Vec<f64>))| {
             (pdf[i] > 0.0).then(|| (scene.cdf(strategy, f64::from(t[i])) - f64::from(u[i])).abs())
         };
         let mut errors: Vec<f64> = self.rays.par_iter().zip(&self.scenes).filter_map(error).collect();

@@ -1,7 +1,7 @@
 //! What is compared: the strategies, and the best that the paper has.
 
 use airlight::Strategy;
-use airlight::oracle::Scene;
+use airlight::oracle::{Coloured, Scene};
 use std::fmt;
 use std::str::FromStr;
 
@@ -40,6 +40,19 @@ impl Contender {
         match self {
             Self::Strategy(strategy) => scene.relative_variance(strategy),
             Self::PaperBest => scene.relative_variance_of_paper_best(),
+        }
+    }
+
+    /// The mean of it over the channels of a medium, if anything is lit. None of the paper's best in more than one channel:
+    /// it follows the transmittance of one.
+    #[must_use]
+    pub fn mean_variance(self, scene: &Coloured) -> Option<f64> {
+        match (self, scene.channels()) {
+            (_, [grey]) => self.variance(grey),
+            (Self::Strategy(strategy), channels) => {
+                Some(scene.relative_variance(strategy)?.iter().sum::<f64>() / channels.len() as f64)
+            }
+            (Self::PaperBest, _) => None,
         }
     }
 }

@@ -1,11 +1,12 @@
 //! Kernels in f32 against the oracle in f64: how far off they are, for one sampler on one family.
 
-use crate::families::{Case, Columns, Family};
-use airlight::oracle::Scene;
+use crate::families::{CHANNELS, Case, Columns, Family};
+use airlight::oracle::{Coloured, Scene};
 use airlight::{Emitter, Ray, Sampler, Samples, Strategy};
 use glam::Vec3;
 use rayon::prelude::*;
 use std::f64::consts::FRAC_PI_2;
+use std::ops::Deref;
 
 /// Rays that are sampled in one call.
 const BATCH: usize = 1 << 14;
@@ -223,14 +224,31 @@ impl Outcomes {
     fn new(sampler: &Sampler, cases: &[Case]) -> Self {
         const EQUAL: &str = "all columns have one length";
         let columns = Columns::new(cases);
-        let (rays, emitters, media) = (columns.rays(), columns.emitters(), columns.media());
-        let [mut t, mut pdf, mut weight, mut r, mut pdf_at_t, mut cdf_at_t, mut integrand] =
-            [(); 7].map(|()| vec![f32::NAN; cases.len()]);
-        let mut samples = Samples::new(&mut t, &mut pdf).weight(&mut weight).r(&mut r);
+        let (rays, emitters, coloured) = (columns.rays(), columns.emitters(), columns.coloured_media());
+        let media = coloured.unwrap_or(columns.media());
+        let column = || vec![f32::NAN; cases.len()];
+        let [mut t, mut pdf, mut r, mut pdf_at_t, mut cdf_at_t] = [(); 5].map(|()| column());
+        let [mut weights, mut integrands] = [(); 2].map(|()| [(); CHANNELS].map(|()| column()));
+        let samples = Samples::new(&mut t, &mut pdf).r(&mut r);
+        let mut samples = match coloured {
+            Some(_) => samples.weights(weights.each_mut().map(Vec::as_mut_slice)),
+            None => samples.weight(&mut weights[0]),
+        };
         let counts = sampler.sample(&rays, &emitters, &media, &columns.u, &mut samples).expect(EQUAL);
         sampler.pdf(&rays, &emitters, &media, &t, &mut pdf_at_t).expect(EQUAL);
         sampler.cdf(&rays, &emitters, &media, &t, &mut cdf_at_t).expect(EQUAL);
-        sampler.evaluate(&rays, &emitters, &media, &t, &mut integrand).expect(EQUAL);
+        let evaluated = match coloured {
+            Some(_) => {
+                let integrands = integrands.each_mut().map(Vec::as_mut_slice);
+                sampler.evaluate_coloured(&rays, &emitters, &media, &t, integrands)
+            }
+            None => sampler.evaluate(&rays, &emitters, &media, &t, &mut integrands[0]),
+        };
+        evaluated.expect(EQUAL);
+        let of_case = |columns: [Vec<f32>; CHANNELS]| {
+            cases.iter().enumerate().map(|(i, case)| columns[case.channel()][i]).collect()
+        };
+        let (weight, integrand) = (of_case(weights), of_case(integrands));
         Self { t, pdf, weight, r, pdf_at_t, cdf_at_t, integrand, bisected: counts.bisected }
     }
 
@@ -263,19 +281,22 @@ impl Row {
         let Outcome { t, pdf, weight, r, pdf_at_t, cdf_at_t, integrand } = *outcome;
         let all = [t, pdf, weight, r, pdf_at_t, cdf_at_t, integrand];
         let parts = case.parts().ok().filter(|_| (0.0..=1.0).contains(&case.u));
-        let scene = parts.as_ref().map(|(ray, emitter, medium)| Scene::new(ray, emitter, medium));
-        let lit = scene.as_ref().and_then(Scene::lit);
+        let scene = parts.as_ref().and_then(|_| Truth::new(case));
+        let lit = scene.as_ref().and_then(|scene| scene.lit());
         let sampled = pdf > 0.0;
         let grazes = match (&scene, &parts) {
             (Some(scene), Some((ray, emitter, _))) => grazes_a_cone(scene, ray, emitter),
             _ => false,
         };
-        let judged = sampled == lit.is_some() || scene.as_ref().is_some_and(beyond_f32) || grazes || case.is_extreme();
+        let judged = sampled == lit.is_some()
+            || scene.as_ref().is_some_and(|scene| beyond_f32(scene))
+            || grazes
+            || case.is_extreme();
         let mut row = Self {
             sampled,
             nonfinite: all.iter().any(|x| !x.is_finite()),
             out_of_range: all.iter().any(|&x| x < 0.0),
-            misjudged: (!judged).then(|| scene.as_ref().map_or(1.0, relative_light)),
+            misjudged: (!judged).then(|| scene.as_ref().map_or(1.0, |scene| relative_light(scene))),
             errors: [None; KINDS],
         };
         let (Some(scene), Some((ray, emitter, _)), Some(_), true, false) =
@@ -314,6 +335,40 @@ impl Row {
             weigh.then(|| weight_error(&scene, strategy, &rounding, u, weight.into())).flatten(),
         ];
         row
+    }
+}
+
+/// What a ray is held against: the channel that is looked at, with the density that it shares with the others.
+struct Truth {
+    channel: Scene,
+    all: Coloured,
+}
+
+impl Truth {
+    fn new(case: &Case) -> Option<Self> {
+        let all = case.coloured().ok()?;
+        Some(Self { channel: all.channels()[case.channel()], all })
+    }
+
+    fn cdf(&self, strategy: Strategy, t: f64) -> f64 {
+        self.all.cdf(strategy, t)
+    }
+
+    fn pdf(&self, strategy: Strategy, t: f64) -> f64 {
+        self.all.pdf(strategy, t)
+    }
+
+    fn draw(&self, strategy: Strategy, u: f64) -> f64 {
+        self.all.draw(strategy, u)
+    }
+}
+
+/// All but the density is that of the channel.
+impl Deref for Truth {
+    type Target = Scene;
+
+    fn deref(&self) -> &Scene {
+        &self.channel
     }
 }
 
@@ -367,7 +422,7 @@ fn axis_cosines(scene: &Scene, ray: &Ray, emitter: &Emitter, axis: [f32; 3]) -> 
 }
 
 /// The error of the exact inverse, rounded.
-fn cdf_floor(scene: &Scene, strategy: Strategy, u: f64) -> f64 {
+fn cdf_floor(scene: &Truth, strategy: Strategy, u: f64) -> f64 {
     let t = scene.draw(strategy, u) as f32;
     (scene.cdf(strategy, t.into()) - u).abs()
 }
@@ -380,17 +435,19 @@ fn rounded(scene: &Scene, t: f64) -> Scene {
     scene.with_foot((scene.h() as f32).into(), nearest - f64::from(t_prime(nearest) as f32))
 }
 
-fn offset_floor(scene: &Scene, strategy: Strategy, moved: f64, u: f64) -> Option<f64> {
+fn offset_floor(scene: &Truth, strategy: Strategy, moved: f64, u: f64) -> Option<f64> {
     let t = rounded(scene, scene.draw(strategy, u)).draw(strategy, u);
     offset_error(scene, strategy, [t - moved, t + moved], u)
 }
 
-fn pdf_floor(scene: &Scene, strategy: Strategy, t: f64) -> Option<f64> {
+/// None of a coloured medium.
+fn pdf_floor(scene: &Truth, strategy: Strategy, t: f64) -> Option<f64> {
+    let [_] = scene.all.channels() else { return None };
     pdf_error(scene, strategy, t, 0.0, rounded(scene, t).pdf(strategy, t))
 }
 
 /// `ends` are those of what may be meant by the distance that is compared.
-fn offset_error(scene: &Scene, strategy: Strategy, ends: [f64; 2], u: f64) -> Option<f64> {
+fn offset_error(scene: &Truth, strategy: Strategy, ends: [f64; 2], u: f64) -> Option<f64> {
     let comparable = match strategy {
         Strategy::EquiAngular => true,
         Strategy::PointNormal => (OFF_THE_MASS..=1.0 - OFF_THE_MASS).contains(&u),
@@ -403,7 +460,7 @@ fn offset_error(scene: &Scene, strategy: Strategy, ends: [f64; 2], u: f64) -> Op
 }
 
 /// The edges of a cone may be moved by `edge`.
-fn pdf_error(scene: &Scene, strategy: Strategy, t: f64, edge: f64, pdf: f64) -> Option<f64> {
+fn pdf_error(scene: &Truth, strategy: Strategy, t: f64, edge: f64, pdf: f64) -> Option<f64> {
     let (t_a, t_b) = support(scene, strategy)?;
     let exact = scene.pdf(strategy, t);
     let size = exact.max(VANISHING / (t_b - t_a));
@@ -420,7 +477,7 @@ fn support(scene: &Scene, strategy: Strategy) -> Option<(f64, f64)> {
 }
 
 /// As for the weight: where `t` cannot tell, `r` is that of a variate near `u`.
-fn r_error(scene: &Scene, strategy: Strategy, rounding: &Rounding, u: f64, r: f64) -> f64 {
+fn r_error(scene: &Truth, strategy: Strategy, rounding: &Rounding, u: f64, r: f64) -> f64 {
     let outside = |ends: [f64; 2]| {
         let [low, high] = ends.map(|t| t - scene.t_h());
         // The middle one of these and 0 is the nearest.
@@ -447,7 +504,7 @@ fn integrand_error(scene: &Scene, t: f64, edge: f64, integrand: f64) -> Option<f
 }
 
 /// As for `r`: the weight is that of what rounds to `t`, or of a variate near `u`.
-fn weight_error(scene: &Scene, strategy: Strategy, rounding: &Rounding, u: f64, weight: f64) -> Option<f64> {
+fn weight_error(scene: &Truth, strategy: Strategy, rounding: &Rounding, u: f64, weight: f64) -> Option<f64> {
     let at = |t: f64| scene.integrand(t) / scene.pdf(strategy, t);
     // At an end where the density vanishes the weight is a limit, and no number.
     let inverse = |u: f64| scene.draw(strategy, u.clamp(OFF_THE_ENDS, 1.0 - OFF_THE_ENDS));

@@ -1,8 +1,8 @@
 //! Families of inputs that are known to break renderers, and a generic one.
 
 use crate::draw::{Draw, EPS};
-use airlight::oracle::Scene;
-use airlight::{Emitter, Emitters, Error, FARTHEST, Media, Medium, Ray, Rays};
+use airlight::oracle::{Coloured, Scene};
+use airlight::{Counts, Emitter, Emitters, Error, FARTHEST, Integral, Media, Medium, Ray, Rays};
 use glam::{DVec3, Vec3};
 use std::fmt;
 use std::str::FromStr;
@@ -37,11 +37,14 @@ pub enum Family {
     /// Spots: cones of 0 to 90 degrees and of a tenth of a degree, edges hard and soft; apex on the ray or next to it, axes along
     /// the ray, rays along the side of the cone, and cosines that are none.
     Spot,
+    /// Three channels whose `mu_t` differ up to a hundredfold, equal ones and ones that do not scatter among them, and
+    /// coefficients that are none; in a box, next to the emitter, and on infinite rays.
+    Colour,
 }
 
 impl Family {
     /// All of them.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::Generic,
         Self::Variate,
         Self::NearEmitter,
@@ -55,6 +58,7 @@ impl Family {
         Self::RandomBits,
         Self::Peaks,
         Self::Spot,
+        Self::Colour,
     ];
 
     /// Its name on the command line and in JSON.
@@ -74,6 +78,7 @@ impl Family {
             Self::RandomBits => "random-bits",
             Self::Peaks => "peaks",
             Self::Spot => "spot",
+            Self::Colour => "colour",
         }
     }
 
@@ -101,6 +106,7 @@ impl Family {
                 Case { g, ..Case::near_emitter(&mut draw) }
             }
             Self::Spot => Case::spot(&mut draw),
+            Self::Colour => Case::colour(&mut draw),
         }
     }
 }
@@ -137,11 +143,24 @@ pub struct Case {
     /// -1 without a cone.
     cos_outer: f32,
     cos_inner: f32,
+    /// Of a coloured medium, those of the channel that is looked at.
     mu_a: f32,
     mu_s: f32,
     g: f32,
+    colour: Option<Colour>,
     /// The variate.
     pub u: f32,
+}
+
+/// How many channels coloured media of cases have.
+pub const CHANNELS: usize = 3;
+
+/// The coefficients of all channels, and the one that is looked at.
+#[derive(Clone, Copy, Debug)]
+struct Colour {
+    mu_a: [f32; CHANNELS],
+    mu_s: [f32; CHANNELS],
+    channel: usize,
 }
 
 impl Case {
@@ -160,25 +179,59 @@ impl Case {
             mu_a: medium.mu_a(),
             mu_s: medium.mu_s(),
             g: medium.g(),
+            colour: None,
             u: 0.5,
         }
     }
 
-    /// The ray, the emitter and the medium, if they are valid.
+    /// The ray, the emitter and the medium, if they are valid; of a coloured medium the channel that is looked at.
     ///
     /// # Errors
     /// Whatever the constructors find.
     pub fn parts(&self) -> Result<(Ray, Emitter, Medium), Error> {
         let ray = Ray::new(self.origin, self.direction, self.t_min, self.t_max)?;
         let emitter = emitter(self.position, self.normal, [self.cos_outer, self.cos_inner])?;
-        Ok((ray, emitter, Medium::new(self.mu_a, self.mu_s, self.g)?))
+        let medium = self.whole_medium()?;
+        Ok((ray, emitter, medium.channel(self.channel()).unwrap_or(medium)))
+    }
+
+    /// The medium with all its channels.
+    ///
+    /// # Errors
+    /// As its constructor.
+    pub fn whole_medium(&self) -> Result<Medium, Error> {
+        match self.colour {
+            Some(Colour { mu_a, mu_s, .. }) => Medium::coloured(mu_a, mu_s, self.g),
+            None => Medium::new(self.mu_a, self.mu_s, self.g),
+        }
+    }
+
+    /// The channel that is looked at; 0 of a grey medium.
+    #[must_use]
+    pub fn channel(&self) -> usize {
+        self.colour.map_or(0, |colour| colour.channel)
+    }
+
+    /// The scene of the oracle with all channels, if the case is a valid one.
+    ///
+    /// # Errors
+    /// As [`parts`](Self::parts).
+    pub fn coloured(&self) -> Result<Coloured, Error> {
+        let (ray, emitter, _) = self.parts()?;
+        Ok(Coloured::new(&ray, &emitter, &self.whole_medium()?))
+    }
+
+    /// The same in a coloured medium.
+    #[must_use]
+    pub(crate) fn with_channels(self, mu_a: [f32; CHANNELS], mu_s: [f32; CHANNELS], channel: usize) -> Self {
+        Self { mu_a: mu_a[channel], mu_s: mu_s[channel], colour: Some(Colour { mu_a, mu_s, channel }), ..self }
     }
 
     fn is_spot(&self) -> bool {
         (self.cos_outer, self.cos_inner) != (NO_CONE, NO_CONE)
     }
 
-    /// The scene of the oracle, if the case is a valid one.
+    /// The scene of the oracle, if the case is a valid one; of a coloured medium that of the channel that is looked at.
     ///
     /// # Errors
     /// As [`parts`](Self::parts).
@@ -216,6 +269,7 @@ impl Case {
             mu_a: 0.5,
             mu_s: 0.2,
             g: draw.pick(&[0.0, 0.9]),
+            colour: None,
             u: draw.uniform(),
         }
     }
@@ -430,6 +484,29 @@ impl Case {
         }
         case
     }
+
+    fn colour(draw: &mut Draw) -> Self {
+        let case = match draw.below(4) {
+            0 => Self::near_emitter(draw),
+            1 => Self::infinite(draw),
+            _ => Self::any(draw),
+        };
+        let equal = draw.below(8) == 0;
+        let mut mu_a = [case.mu_a; CHANNELS];
+        let mut mu_s = [case.mu_s; CHANNELS];
+        for c in if equal { 0..0 } else { 0..CHANNELS } {
+            let mu_t = (case.mu_a + case.mu_s) * draw.log_between(0.1, 10.0);
+            mu_s[c] = mu_t * if draw.below(8) == 0 { 0.0 } else { draw.uniform() };
+            mu_a[c] = mu_t - mu_s[c];
+        }
+        let (bad, c) = (draw.pick(&[-0.1, f32::NAN, f32::INFINITY]), draw.below(CHANNELS as u64) as usize);
+        match draw.below(64) {
+            0 => mu_a[c] = bad,
+            1 => mu_s[c] = bad,
+            _ => {}
+        }
+        case.with_channels(mu_a, mu_s, draw.below(CHANNELS as u64) as usize)
+    }
 }
 
 /// The cosine that stands for no cone.
@@ -461,6 +538,8 @@ pub struct Columns {
     mu_a: Vec<f32>,
     mu_s: Vec<f32>,
     g: Vec<f32>,
+    /// `mu_a` and `mu_s` of all channels, if there are coloured media.
+    channels: Option<[[Vec<f32>; CHANNELS]; 2]>,
     /// The variates.
     pub u: Vec<f32>,
 }
@@ -485,6 +564,7 @@ impl Columns {
             mu_a: column(|case| case.mu_a),
             mu_s: column(|case| case.mu_s),
             g: column(|case| case.g),
+            channels: cases.iter().any(|case| case.colour.is_some()).then(|| of_channels(cases)),
             u: column(|case| case.u),
         }
     }
@@ -517,11 +597,30 @@ impl Columns {
         self.normal.each_ref().map(Vec::as_slice)
     }
 
-    /// Their media.
+    /// Their media; of coloured ones the channels that are looked at.
     #[must_use]
     pub fn media(&self) -> Media<'_> {
         let [mu_a, mu_s, g] = self.medium();
         Media::each(mu_a, mu_s, g)
+    }
+
+    /// Those with all their channels, if there are coloured ones.
+    #[must_use]
+    pub fn coloured_media(&self) -> Option<Media<'_>> {
+        let [mu_a, mu_s] = self.channels.as_ref()?.each_ref().map(|columns| columns.each_ref().map(Vec::as_slice));
+        Some(Media::each_coloured(mu_a, mu_s, &self.g))
+    }
+
+    /// Writes the radiances, in all channels of coloured media; of grey ones the first column alone.
+    ///
+    /// # Errors
+    /// As [`Integral::radiance`].
+    pub fn integrate(&self, integral: &Integral, radiances: &mut [Vec<f32>; CHANNELS]) -> Result<Counts, Error> {
+        let (rays, emitters, columns) = (self.rays(), self.emitters(), radiances.each_mut().map(Vec::as_mut_slice));
+        match self.coloured_media() {
+            Some(media) => integral.radiance_coloured(&rays, &emitters, &media, columns),
+            None => integral.radiance(&rays, &emitters, &self.media(), &mut radiances[0]),
+        }
     }
 
     /// `mu_a`, `mu_s` and `g` of these.
@@ -529,4 +628,14 @@ impl Columns {
     pub fn medium(&self) -> [&[f32]; 3] {
         [&self.mu_a, &self.mu_s, &self.g]
     }
+}
+
+/// `mu_a` and `mu_s` of all channels; those of a grey medium are equal.
+fn of_channels(cases: &[Case]) -> [[Vec<f32>; CHANNELS]; 2] {
+    let columns =
+        |of: fn(&Case) -> [f32; CHANNELS]| std::array::from_fn(|c| cases.iter().map(|case| of(case)[c]).collect());
+    [
+        columns(|case| case.colour.map_or([case.mu_a; CHANNELS], |colour| colour.mu_a)),
+        columns(|case| case.colour.map_or([case.mu_s; CHANNELS], |colour| colour.mu_s)),
+    ]
 }

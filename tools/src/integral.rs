@@ -11,9 +11,10 @@ use crate::profile::clock::{nanoseconds, warm_up};
 use crate::profile::rounds::take_turns;
 use crate::progress::Part;
 use crate::{output, progress};
+use airlight::oracle::{Coloured, Scene};
 use airlight::{Integral, Nodes, Precision};
 use airlight_tools::errors::is_comparable;
-use airlight_tools::families::{Case, Columns};
+use airlight_tools::families::{CHANNELS, Case, Columns};
 use airlight_tools::scenes::Set;
 use airlight_tools::threads;
 use anyhow::{Context, Result};
@@ -30,7 +31,7 @@ const SCALAR_RAYS: usize = 1 << 12;
 /// Compare the integral of the airlight with quadrature, and its time with that of plain rules, on sets of scenes
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// Scenes: generic, broad, dense, tame, spot or canonical, may be repeated [default: generic, broad, dense]
+    /// Scenes: generic, broad, dense, tame, spot, colour, colour-strong or canonical, may be repeated [default: generic, broad, dense]
     #[arg(long, value_name = "NAME", value_parser = set)]
     set: Vec<Sets>,
     /// Scenes of a set
@@ -51,7 +52,11 @@ pub(crate) struct Args {
 struct Sets(Vec<Set>);
 
 fn set(name: &str) -> Result<Sets, String> {
-    let unknown = || format!("no set is called '{name}'; there are generic, broad, dense, tame, spot and canonical");
+    let unknown = || {
+        format!(
+            "no set is called '{name}'; there are generic, broad, dense, tame, spot, colour, colour-strong and canonical"
+        )
+    };
     Set::named(name).map(Sets).ok_or_else(unknown)
 }
 
@@ -70,14 +75,13 @@ fn measure(args: &Args, progress: Part<'_>) -> Result<Figures> {
     let mut rows = Vec::new();
     for set in args.sets() {
         progress.tell(set.name());
-        let (cases, truth): (Vec<Case>, Vec<Option<f64>>) = set
-            .cases(args.seed, args.scenes)
-            .into_par_iter()
-            .map(|(case, scene)| {
-                let radiance = scene.radiance();
-                (case, is_comparable(&scene, radiance).then_some(radiance))
-            })
-            .unzip();
+        let cases: Vec<Case> = set.cases(args.seed, args.scenes).into_iter().map(|(case, _)| case).collect();
+        let scenes = set.coloured(args.seed, args.scenes);
+        let truth = |scene: &Scene| {
+            let radiance = scene.radiance();
+            is_comparable(scene, radiance).then_some(radiance)
+        };
+        let truth: Vec<Option<f64>> = scenes.par_iter().flat_map_iter(Coloured::channels).map(truth).collect();
         let batch = Batch::new(&cases)?;
         let rules = one.install(|| take_turns(Rule::all(args.precision), ROUNDS, |rule| rule.time(&batch)))?;
         for (rule, times) in rules {
@@ -102,13 +106,28 @@ impl Args {
 /// The scenes of a set, as every rule takes them.
 struct Batch {
     columns: Columns,
+    /// Of every channel, those of a ray next to each other.
     lines: Vec<Line>,
+    rays: usize,
 }
 
 impl Batch {
     fn new(cases: &[Case]) -> Result<Self> {
-        let line = |case: &Case| Ok(Line::new(&case.parts()?));
-        Ok(Self { columns: Columns::new(cases), lines: cases.iter().map(line).collect::<Result<_>>()? })
+        let mut lines = Vec::new();
+        for case in cases {
+            let ((ray, emitter, _), medium) = (case.parts()?, case.whole_medium()?);
+            lines.extend((0..).map_while(|c| medium.channel(c)).map(|medium| Line::new(&(ray, emitter, medium))));
+        }
+        Ok(Self { columns: Columns::new(cases), lines, rays: cases.len() })
+    }
+
+    fn channels(&self) -> usize {
+        self.lines.len() / self.rays
+    }
+
+    /// Room for radiances.
+    fn room(&self) -> [Vec<f32>; CHANNELS] {
+        [(); CHANNELS].map(|()| vec![0.0; self.rays])
     }
 }
 
@@ -129,28 +148,25 @@ impl Rule {
     fn radiances(&self, batch: &Batch) -> Result<Vec<f64>> {
         match self {
             Self::Integral(integral) => {
-                let mut radiances = vec![0.0; batch.lines.len()];
-                Self::write(integral, batch, &mut radiances)?;
-                Ok(radiances.into_iter().map(f64::from).collect())
+                let mut radiances = batch.room();
+                batch.columns.integrate(integral, &mut radiances)?;
+                let of_ray = |i: usize| radiances[..batch.channels()].iter().map(move |channel| f64::from(channel[i]));
+                Ok((0..batch.rays).flat_map(of_ray).collect())
             }
             Self::Plain(plain) => Ok(batch.lines.iter().map(|line| plain.radiance(line)).collect()),
         }
     }
 
-    fn write(integral: &Integral, batch: &Batch, radiances: &mut [f32]) -> Result<()> {
-        let Batch { columns, .. } = batch;
-        integral.radiance(&columns.rays(), &columns.emitters(), &columns.media(), radiances)?;
-        Ok(())
-    }
-
-    /// Its time for one ray \[ns\].
+    /// Its time for one ray with all its channels \[ns\].
     fn time(&self, batch: &Batch) -> Result<f64> {
-        let rays = batch.lines.len();
-        let mut radiances = vec![0.0; rays];
+        let (rays, mut radiances) = (batch.rays, batch.room());
         let (least, mut work): (usize, Box<dyn FnMut() -> Result<()>>) = match self {
-            Self::Integral(integral) => (RAYS, Box::new(|| Self::write(integral, batch, black_box(&mut radiances)))),
+            Self::Integral(integral) => {
+                let mut integrate = move || batch.columns.integrate(integral, black_box(&mut radiances)).map(|_| ());
+                (RAYS, Box::new(move || Ok(integrate()?)))
+            }
             Self::Plain(plain) => {
-                let some = &batch.lines[..rays.min(SCALAR_RAYS)];
+                let some = &batch.lines[..rays.min(SCALAR_RAYS) * batch.channels()];
                 let sum = move || {
                     black_box(some.iter().map(|line| plain.radiance(line)).sum::<f64>());
                     Ok(())

@@ -4,7 +4,7 @@ mod figures;
 
 pub(crate) use self::figures::{Figures, Row};
 use crate::arguments::{self, Json};
-use crate::check::Check;
+use crate::check::{Check, Comparison};
 use crate::output::{self, Target};
 use crate::progress::{self, Part};
 use crate::strata::Strata;
@@ -23,7 +23,8 @@ pub(crate) struct Args {
     /// for those where both are -1 [default: the built-in Cornell box in fog]
     #[arg(value_name = "WAVEFRONT.npz")]
     wavefront: Option<PathBuf>,
-    /// Medium: absorption and scattering coefficient [1/m] and mean cosine
+    /// Medium: absorption and scattering coefficient [1/m] and mean cosine; r:g:b for a coefficient makes it one of three
+    /// channels (and four numbers one of four), whose radiances are reported one by one, as 0.1,0.2:0.3:0.5,0.6
     #[arg(long, value_name = "MU_A,MU_S,G", default_value = "0.1,0.3,0.6", allow_hyphen_values = true)]
     #[arg(value_parser = arguments::medium)]
     medium: Medium,
@@ -44,7 +45,8 @@ pub(crate) struct Args {
     /// Threads to sample with, at most 1024 [default: one per core]
     #[arg(long, value_name = "N", value_parser = arguments::threads)]
     threads: Option<usize>,
-    /// Write the columns t, pdf and weight of the first repetition; takes exactly one --strategy
+    /// Write the columns t, pdf and weight of the first repetition, weight_0, weight_1, ... of a medium of several channels;
+    /// takes exactly one --strategy
     #[arg(long, value_name = "FILE.npz")]
     output: Option<PathBuf>,
     #[command(flatten)]
@@ -66,8 +68,11 @@ pub(crate) fn run(args: &Args) -> Result<()> {
     progress.finish_and_clear();
 
     if let Some(output) = output {
-        let Columns { t, pdf, weight } = &columns;
-        output.write(&output::npz(&[("t", t), ("pdf", pdf), ("weight", weight)])?)?;
+        let Columns { t, pdf, weights } = &columns;
+        let names = if let [_] = &weights[..] { &["weight"] } else { &WEIGHTS[..] };
+        let weights = names.iter().copied().zip(weights).map(|(name, weight)| (name, &weight[..]));
+        let named: Vec<(&str, &[f32])> = [("t", &t[..]), ("pdf", pdf)].into_iter().chain(weights).collect();
+        output.write(&output::npz(&named)?)?;
     }
     output::report(&figures, json.as_ref())
 }
@@ -87,7 +92,7 @@ pub(crate) fn measure(args: &Args, progress: Part<'_>) -> Result<(Figures, Colum
     for sampler in samplers {
         progress.tell(sampler.strategy().name());
         let run = sample(args, wavefront, sampler, progress)?;
-        rows.push(run.row(args, wavefront, &check));
+        rows.extend(run.rows(args, wavefront, &check));
         first = run.first;
     }
     let figures = Figures {
@@ -95,7 +100,7 @@ pub(crate) fn measure(args: &Args, progress: Part<'_>) -> Result<(Figures, Colum
         wavefront: wavefront.name.clone(),
         wavefront_rays: wavefront.len(),
         rays: args.rays,
-        medium: args.medium.into(),
+        medium: (&args.medium).into(),
         seed: args.seed,
         threads: rayon::current_num_threads(),
         invalid_rays: validity.invalid,
@@ -121,7 +126,8 @@ struct Run {
     counts: Counts,
     /// Time inside the sampler alone.
     sampling: Duration,
-    strata: Strata,
+    /// Of every channel.
+    strata: Vec<Strata>,
     first: Columns,
 }
 
@@ -130,17 +136,21 @@ struct Run {
 pub(crate) struct Columns {
     t: Vec<f32>,
     pdf: Vec<f32>,
-    weight: Vec<f32>,
+    /// Of every channel.
+    weights: Vec<Vec<f32>>,
 }
+
+/// What the columns of weights are called, if there are several.
+const WEIGHTS: [&str; 4] = ["weight_0", "weight_1", "weight_2", "weight_3"];
 
 /// Samples the wavefront in batches of one repetition; the last one may be a part of it.
 fn sample(args: &Args, wavefront: &Wavefront, sampler: Sampler, progress: Part<'_>) -> Result<Run> {
     let reached = args.rays.min(wavefront.len());
     let media = Media::one(args.medium);
     let (mut counts, mut sampling) = (Counts::default(), Duration::ZERO);
-    let mut strata = Strata::new(reached);
+    let mut strata = vec![Strata::new(reached); args.medium.channels()];
     let mut u = wavefront.u[..reached].to_vec();
-    let mut columns = Columns::new(reached);
+    let mut columns = Columns::new(reached, args.medium.channels());
     let mut first = Columns::default();
 
     for start in (0..args.rays).step_by(reached) {
@@ -155,7 +165,9 @@ fn sample(args: &Args, wavefront: &Wavefront, sampler: Sampler, progress: Part<'
         counts = counts + sampler.sample(&rays, &emitters, &media, &u[..count], &mut samples)?;
         sampling += clock.elapsed();
 
-        strata.add(&columns.weight[..count]);
+        for (strata, weight) in strata.iter_mut().zip(&columns.weights) {
+            strata.add(&weight[..count]);
+        }
         if start == 0 {
             first = columns.clone();
         }
@@ -165,13 +177,28 @@ fn sample(args: &Args, wavefront: &Wavefront, sampler: Sampler, progress: Part<'
 }
 
 impl Run {
-    fn row(&self, args: &Args, wavefront: &Wavefront, check: &Check) -> Row {
+    /// One for each channel.
+    fn rows(&self, args: &Args, wavefront: &Wavefront, check: &Check) -> Vec<Row> {
         let strategy = self.sampler.strategy();
-        let whole = self.strata.all();
-        let subset = check.compare(strategy, &self.strata);
         let errors = check.cdf_errors(strategy, &wavefront.u, &self.first.t, &self.first.pdf);
+        let compared = check.compare(strategy, &self.strata);
+        let channel = |c: usize| (self.strata.len() > 1).then_some(c);
+        let row = |(c, subset)| self.row(args, channel(c), (&self.strata[c], subset), check, &errors);
+        compared.into_iter().enumerate().map(row).collect()
+    }
+
+    fn row(
+        &self,
+        args: &Args,
+        channel: Option<usize>,
+        (strata, subset): (&Strata, Option<Comparison>),
+        check: &Check,
+        errors: &[f64],
+    ) -> Row {
+        let whole = strata.all();
         Row {
-            strategy: strategy.name(),
+            strategy: self.sampler.strategy().name(),
+            channel,
             precision: self.sampler.precision().name(),
             rays: args.rays,
             msamples_per_s: args.rays as f64 / (1e6 * self.sampling.as_secs_f64()),
@@ -186,22 +213,26 @@ impl Run {
             check_stderr: subset.map(|c| c.stderr),
             check_quadrature: subset.map(|c| c.quadrature),
             check_z: subset.and_then(|c| c.z()),
-            cdf_p999: quantile(&errors, 0.999),
+            cdf_p999: quantile(errors, 0.999),
             cdf_max: errors.last().copied(),
         }
     }
 }
 
 impl Columns {
-    fn new(length: usize) -> Self {
+    fn new(length: usize, channels: usize) -> Self {
         let column = vec![0.0; length];
-        Self { t: column.clone(), pdf: column.clone(), weight: column }
+        Self { t: column.clone(), pdf: column.clone(), weights: vec![column; channels] }
     }
 
     /// The first `count` rows, to be written.
     fn samples(&mut self, count: usize) -> Samples<'_> {
-        let Self { t, pdf, weight } = self;
-        Samples::new(&mut t[..count], &mut pdf[..count]).weight(&mut weight[..count])
+        let Self { t, pdf, weights } = self;
+        let mut samples = Samples::new(&mut t[..count], &mut pdf[..count]);
+        for (column, weight) in samples.weights.iter_mut().zip(weights) {
+            *column = Some(&mut weight[..count]);
+        }
+        samples
     }
 }
 

@@ -1,8 +1,8 @@
 //! Sets of scenes on which variances and integrals are compared.
 
 use crate::draw::Draw;
-use crate::families::{Case, Family};
-use airlight::oracle::Scene;
+use crate::families::{CHANNELS, Case, Family};
+use airlight::oracle::{Coloured, Scene};
 use airlight::{Emitter, Error, Medium, Ray};
 use glam::Vec3;
 
@@ -20,6 +20,10 @@ pub enum Set {
     Tame,
     /// The rays of `generic` with spots: any axis, half-angles of 2 to 60 degrees, edges from hard to soft.
     Spot,
+    /// The rays of `generic` in media of three channels, `mu_t` 0.49, 0.7 and 0.98 per m.
+    Colour,
+    /// The same with 0.21, 0.7 and 2.1 per m.
+    ColourStrong,
     /// Camera rays through a box of side 4 m with the emitter in its middle, `mu_a` 0.5 and `mu_s` 0.2 per m.
     Canonical {
         /// Mean cosine 0.9, else 0.
@@ -39,6 +43,8 @@ impl Set {
             Self::Dense => "dense",
             Self::Tame => "tame",
             Self::Spot => "spot",
+            Self::Colour => "colour",
+            Self::ColourStrong => "colour-strong",
             Self::Canonical { forward: false, normal: false } => "canonical-g0-point",
             Self::Canonical { forward: false, normal: true } => "canonical-g0-point-normal",
             Self::Canonical { forward: true, normal: false } => "canonical-g0.9-point",
@@ -57,6 +63,8 @@ impl Set {
             "dense" => Some(vec![Self::Dense]),
             "tame" => Some(vec![Self::Tame]),
             "spot" => Some(vec![Self::Spot]),
+            "colour" => Some(vec![Self::Colour]),
+            "colour-strong" => Some(vec![Self::ColourStrong]),
             "canonical" => Some(canonical.to_vec()),
             _ => canonical.into_iter().find(|set| set.name() == name).map(|set| vec![set]),
         }
@@ -66,6 +74,12 @@ impl Set {
     #[must_use]
     pub fn scenes(self, seed: u64, count: usize) -> Vec<Scene> {
         self.lit(seed).map(|(_, scene)| scene).take(count).collect()
+    }
+
+    /// The same with all channels of coloured media.
+    #[must_use]
+    pub fn coloured(self, seed: u64, count: usize) -> Vec<Coloured> {
+        self.lit(seed).filter_map(|(case, _)| case.coloured().ok()).take(count).collect()
     }
 
     /// The same with the f32 values that describe them.
@@ -83,6 +97,8 @@ impl Set {
         match self {
             Self::Generic => Ok(Family::Generic.case(seed, index)),
             Self::Spot => Ok(spot(&mut Draw::new(seed, 68, index))),
+            Self::Colour => Ok(colour(&mut Draw::new(seed, 69, index), [0.7, 1.0, 1.4])),
+            Self::ColourStrong => Ok(colour(&mut Draw::new(seed, 70, index), [0.3, 1.0, 3.0])),
             Self::Dense => dense(&mut Draw::new(seed, 67, index)),
             Self::Broad => broad(&mut Draw::new(seed, 64, index)),
             Self::Tame => tame(&mut Draw::new(seed, 65, index)),
@@ -103,6 +119,10 @@ fn spot(draw: &mut Draw) -> Case {
     let (case, axis) = (Case::generic(draw), draw.direction());
     let half_angle = f64::from(draw.between(2.0, 60.0));
     case.with_cone(draw, axis, half_angle.to_radians().cos() as f32)
+}
+
+fn colour(draw: &mut Draw, ratios: [f32; CHANNELS]) -> Case {
+    Case::generic(draw).with_channels(ratios.map(|x| 0.5 * x), ratios.map(|x| 0.2 * x), 1)
 }
 
 fn broad(draw: &mut Draw) -> Result<Case, Error> {
@@ -171,9 +191,8 @@ mod tests {
 
     #[test]
     fn names_are_found_again() {
-        for set in
-            ["broad", "generic", "dense", "tame", "spot", "canonical"].iter().flat_map(|name| Set::named(name).unwrap())
-        {
+        let names = ["broad", "generic", "dense", "tame", "spot", "colour", "colour-strong", "canonical"];
+        for set in names.iter().flat_map(|name| Set::named(name).unwrap()) {
             assert_eq!(Set::named(set.name()), Some(vec![set]));
         }
         assert_eq!(Set::named("narrow"), None);

@@ -22,10 +22,11 @@ const CLIMBS: usize = 256;
 /// Compare the relative variances of all densities, by quadrature, on a set of scenes
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// Scenes: broad, generic, dense, tame, spot, canonical, or the rays of a wavefront
+    /// Scenes: broad, generic, dense, tame, spot, colour, colour-strong, canonical, or the rays of a wavefront
     #[arg(long, value_name = "NAME|FILE.npz", default_value = "broad", conflicts_with = "adversarial")]
     set: Source,
-    /// Medium of the rays of a wavefront: absorption and scattering coefficient [1/m] and mean cosine
+    /// Medium of the rays of a wavefront: absorption and scattering coefficient [1/m] and mean cosine; r:g:b for a
+    /// coefficient gives it three channels, of whose variances the mean is taken
     #[arg(long, value_name = "MU_A,MU_S,G", default_value = "0.1,0.3,0.6", allow_hyphen_values = true)]
     #[arg(value_parser = arguments::medium, conflicts_with = "adversarial")]
     medium: Medium,
@@ -71,7 +72,7 @@ pub(crate) fn measure(args: &Args, progress: Part<'_>) -> Result<Figures> {
         for contender in args.contenders(Contender::all()) {
             progress.tell(format!("{name} {}", contender.name()));
             let variance = |scene| {
-                let variance = contender.variance(scene);
+                let variance = contender.mean_variance(scene);
                 progress.inc(1);
                 variance
             };

@@ -200,6 +200,42 @@ fn json_on_standard_output_stands_alone() {
     }
 }
 
+/// Each as the only channel of its medium, and the JSON says which one it is.
+#[test]
+fn a_coloured_medium_has_a_radiance_in_every_channel() {
+    let run = |medium: &str| {
+        let arguments = ["sample", "--rays", "131072", "--check", "256", "--strategy", "product-5", "--json", "-"];
+        let figures: Value = serde_json::from_str(&succeed(&[&arguments[..], &["--medium", medium]].concat())).unwrap();
+        figures
+    };
+    let figures = run("0.1,0.2:0.3:0,0.6");
+    let rows = figures["results"].as_array().unwrap();
+    let (mu_a, mu_s) = (&figures["medium"]["mu_a"], &figures["medium"]["mu_s"]);
+    assert_eq!((mu_a.as_array().unwrap().len(), mu_s.as_array().unwrap().len()), (3, 3), "{figures}");
+    assert_eq!(rows.iter().map(|row| row["channel"].as_u64().unwrap()).collect::<Vec<_>>(), [0, 1, 2]);
+    for (row, grey) in rows.iter().zip(["0.1,0.2,0.6", "0.1,0.3,0.6"]) {
+        let grey = &run(grey)["results"][0];
+        let of = |row: &Value, key: &str| row[key].as_f64().unwrap();
+        assert!((of(row, "check_quadrature") / of(grey, "check_quadrature") - 1.0).abs() < 1e-12, "{row}, {grey}");
+        let error = of(row, "radiance_stderr").hypot(of(grey, "radiance_stderr"));
+        assert!((of(row, "radiance") - of(grey, "radiance")).abs() < 5.0 * error, "{row}, {grey}");
+        assert!(of(row, "check_z").abs() < 5.0 && of(row, "cdf_p999") < 1e-3, "{row}");
+    }
+    assert_eq!((&rows[2]["radiance"], &rows[2]["check_z"]), (&Value::from(0.0), &Value::Null));
+    let table = succeed(&["sample", "--rays", "8", "--medium", "0.1,1:2:3:4,0", "--strategy", "product-9"]);
+    assert!(table.contains("mu_s 1:2:3:4 /m") && table.contains("product-9[3]"), "{table}");
+}
+
+#[test]
+fn the_output_of_a_coloured_medium_has_weights_of_every_channel() {
+    let folder = TempDir::new().unwrap();
+    let file = folder.path().join("samples.npz");
+    let arguments = ["sample", "--strategy", "product-5", "--rays", "1000", "--check", "0", "--medium", "0.1,0:1:2,0"];
+    succeed(&[&arguments[..], &["--output", text(&file)]].concat());
+    let weights = ["weight_0", "weight_1", "weight_2"].map(|name| read(&file, name).1.iter().sum::<f32>());
+    assert!(weights[0] == 0.0 && weights[1] > 0.0 && weights[2] > 0.0, "{weights:?}");
+}
+
 #[test]
 fn strategies_without_fast_precision_are_left_out_or_refused() {
     let arguments = ["sample", "--rays", "8", "--check", "0", "--precision", "fast"];
@@ -611,6 +647,10 @@ fn a_refused_argument_is_named() {
         (&["--medium", "0.1,0.3"], "--medium <MU_A,MU_S,G>': expected three numbers"),
         (&["--medium", "a,b,c"], "--medium <MU_A,MU_S,G>': expected three numbers"),
         (&["--medium", "-1,0.3,0"], "mu_a is -1, expected a finite value >= 0"),
+        (&["--medium", "0.1:0.2,0.3,0"], "expected three numbers"),
+        (&["--medium", "0.1,0.2,0:0:0"], "expected three numbers"),
+        (&["--medium", "1:2:3,1:2:3:4,0"], "a coefficient has 3 channels, expected 4"),
+        (&["--medium", "1,0:-1:2,0"], "mu_s is -1, expected a finite value >= 0"),
         (&["--medium", "0.1,nan,0"], "mu_s is NaN, expected a finite value >= 0"),
         (&["--medium", "0.1,0.3,1.5"], "g is 1.5, expected -1 <= g <= 1"),
         (&["--strategy", "best"], "no strategy is called 'best'; there are transmittance"),

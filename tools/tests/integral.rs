@@ -43,6 +43,18 @@ fn json_has_a_row_for_every_set_and_rule() {
     }
 }
 
+/// Of every channel of a coloured medium, by all rules.
+#[test]
+fn every_channel_is_compared() {
+    let rows = rows(&["--set", "colour-strong", "--scenes", "200", "--seed", "7"]);
+    assert_eq!(rows.len(), RULES.len());
+    for row in &rows {
+        assert_eq!((&row["scenes"], &row["compared"]), (&Value::from(200), &Value::from(600)), "{row}");
+    }
+    let median = |i: usize| rows[i]["median"].as_f64().unwrap();
+    assert!(median(3) < 1e-6 && median(2) < 1e-6 && median(9) < 1e-2, "{rows:#?}");
+}
+
 /// Median and 99th percentile; no plain rule of as many nodes has them on all sets.
 #[test]
 fn errors_are_as_promised() {
@@ -78,7 +90,10 @@ fn the_table_explains_itself() {
 #[test]
 fn a_refused_argument_is_named() {
     for (arguments, told) in [
-        (["--set", "narrow"], "no set is called 'narrow'; there are generic, broad, dense, tame, spot and canonical"),
+        (
+            ["--set", "narrow"],
+            "no set is called 'narrow'; there are generic, broad, dense, tame, spot, colour, colour-strong and canonical",
+        ),
         (["--scenes", "0"], "at least 1"),
         (["--precision", "exacter"], "no precision is called 'exacter'"),
     ] {

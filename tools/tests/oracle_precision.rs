@@ -3,6 +3,8 @@
 //! Every error is at most 1e-12, but for one thing: where the ray passes the emitter at a millionth of its length, and
 //! next to where `N` is 0, one ulp of a distance changes a density by more. There the error is what is left beyond such
 //! a change; how many scenes of a family have to be excused so is printed with the errors.
+//!
+//! Of `colour` it is the scene of one channel, with the density of its own: the mixture has no such reference.
 
 mod reference;
 

@@ -75,6 +75,20 @@ fn a_wavefront_is_a_set() {
     assert!(rows[0]["mean"].as_f64().unwrap() < 0.1 * rows[1]["mean"].as_f64().unwrap(), "{rows:?}");
 }
 
+/// Means over the channels: most of it is what no single density can follow.
+#[test]
+fn product_densities_follow_the_channels_together() {
+    for (set, [least, most]) in [("colour", [0.03, 0.042]), ("colour-strong", [0.2, 0.30])] {
+        let strategies = ["product-5", "product-9", "equi-angular", "paper-best"].map(|name| ["--strategy", name]);
+        let rows = json(&[&["--set", set, "--seed", "3"], strategies.as_flattened()].concat());
+        let means = [0, 1, 2].map(|i| rows[i]["mean"].as_f64().unwrap());
+        assert!(means[..2].iter().all(|mean| (least..=most).contains(mean)) && means[2] > 1.0, "{set}: {means:?}");
+        assert_eq!((&rows[0]["set"], &rows[0]["invalid"]), (&Value::from(set), &Value::from(0)));
+        // Its density is for one channel.
+        assert_eq!((&rows[3]["scenes"], &rows[3]["mean"]), (&Value::from(0), &Value::Null));
+    }
+}
+
 /// Means, and all of equi-angular's is above them.
 #[test]
 fn product_densities_follow_the_falloff_of_spots() {
@@ -105,7 +119,10 @@ fn the_table_comes_with_json_in_a_file() {
 #[test]
 fn a_refused_argument_is_named() {
     for (arguments, told) in [
-        (&["--set", "narrow"][..], "no set is called 'narrow'; there are broad, generic, dense, tame, spot, canonical"),
+        (
+            &["--set", "narrow"][..],
+            "no set is called 'narrow'; there are broad, generic, dense, tame, spot, colour, colour-strong, canonical",
+        ),
         (&["--set", "no-such-wavefront.npz"], "cannot read no-such-wavefront.npz"),
         (&["--scenes", "0"], "at least 1"),
         (&["--strategy", "product-4"], "no strategy is called 'product-4'"),

@@ -45,6 +45,8 @@ const LIMITS: [(Family, [f64; FIGURES.len()]); Family::ALL.len()] = [
     (Family::Peaks, NEAR),
     // In f64 as in exact precision; next to the apex t resolves nothing.
     (Family::Spot, [1e-5, NONE, 8e-6, 1e-4, 8e-6, 64.0, NONE]),
+    // One ray in four passes the emitter as near.
+    (Family::Colour, NEAR),
 ];
 
 pub(super) fn bounds(family: Family) -> Vec<Bound> {

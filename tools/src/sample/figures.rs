@@ -24,21 +24,45 @@ pub(crate) struct Figures {
 /// A medium, spelt out.
 #[derive(Debug, Serialize)]
 pub(crate) struct Coefficients {
-    mu_a: f32,
-    mu_s: f32,
+    mu_a: Coefficient,
+    mu_s: Coefficient,
     g: f32,
 }
 
-impl From<Medium> for Coefficients {
-    fn from(medium: Medium) -> Self {
-        Self { mu_a: medium.mu_a(), mu_s: medium.mu_s(), g: medium.g() }
+/// A number, or those of all channels.
+#[derive(Debug, Serialize)]
+#[serde(untagged)]
+enum Coefficient {
+    Grey(f32),
+    Coloured(Vec<f32>),
+}
+
+impl From<&Medium> for Coefficients {
+    fn from(medium: &Medium) -> Self {
+        let coefficient = |of: fn(&Medium) -> f32| match medium.channels() {
+            1 => Coefficient::Grey(of(medium)),
+            _ => Coefficient::Coloured((0..).map_while(|c| medium.channel(c)).map(|channel| of(&channel)).collect()),
+        };
+        Self { mu_a: coefficient(Medium::mu_a), mu_s: coefficient(Medium::mu_s), g: medium.g() }
     }
 }
 
-/// One strategy; what cannot be told, such as the standard error of a single repetition, is none.
+impl fmt::Display for Coefficient {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Grey(value) => write!(f, "{value}"),
+            Self::Coloured(values) => write!(f, "{}", values.iter().map(f32::to_string).collect::<Vec<_>>().join(":")),
+        }
+    }
+}
+
+/// One strategy, in one channel; what cannot be told, such as the standard error of a single repetition, is none.
 #[derive(Debug, Serialize)]
 pub(crate) struct Row {
     pub(crate) strategy: &'static str,
+    /// Which one, of a medium of several channels.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) channel: Option<usize>,
     pub(crate) precision: &'static str,
     pub(crate) rays: usize,
     pub(crate) msamples_per_s: f64,
@@ -64,12 +88,12 @@ pub(crate) struct Row {
 
 impl fmt::Display for Figures {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Coefficients { mu_a, mu_s, g } = self.medium;
+        let Coefficients { mu_a, mu_s, g } = &self.medium;
         writeln!(f, "{}: {} rays, {} samples per strategy", self.wavefront, self.wavefront_rays, self.rays)?;
         writeln!(f, "medium: mu_a {mu_a} /m, mu_s {mu_s} /m, g {g}; seed {}, threads {}", self.seed, self.threads)?;
 
         let mut speed = table::new(["strategy", "precision", "Msamples/s", "sampled", "empty", "invalid", "bisected"]);
-        for row in &self.results {
+        for row in self.results.iter().filter(|row| row.channel.is_none_or(|channel| channel == 0)) {
             speed.add_row([
                 row.strategy.to_owned(),
                 row.precision.to_owned(),
@@ -104,7 +128,7 @@ impl fmt::Display for Figures {
         ]);
         for row in &self.results {
             radiance.add_row([
-                row.strategy.to_owned(),
+                row.channel.map_or(row.strategy.to_owned(), |channel| format!("{}[{channel}]", row.strategy)),
                 row.precision.to_owned(),
                 figure(row.radiance, |x| format!("{x:.5e}")),
                 figure(row.radiance_stderr, |x| format!("{x:.1e}")),
@@ -122,6 +146,9 @@ impl fmt::Display for Figures {
             f,
             "radiance: mean weight [1/m^2], that of an invalid ray is 0; +-: standard errors, the second by the oracle"
         )?;
+        if self.results.iter().any(|row| row.channel.is_some()) {
+            writeln!(f, "[0], [1], ...: the channels of the medium")?;
+        }
         writeln!(f, "z: (estimate - quadrature) / standard error")?;
         writeln!(f, "estimate, quadrature, z and CDF, which is |CDF(t) - u|: on {checked} of the rays")
     }

@@ -4,7 +4,7 @@ use crate::check::spread;
 use crate::validity::Validity;
 use crate::wavefront::Wavefront;
 use airlight::Medium;
-use airlight::oracle::Scene;
+use airlight::oracle::Coloured;
 use airlight_tools::scenes::Set;
 use anyhow::{Context, Result, ensure};
 use std::path::{Path, PathBuf};
@@ -27,7 +27,7 @@ impl FromStr for Source {
                 Ok(Self::File(path.to_owned()))
             }
             None => Err(format!(
-                "no set is called '{name}'; there are broad, generic, dense, tame, spot, canonical, and any FILE.npz of a wavefront"
+                "no set is called '{name}'; there are broad, generic, dense, tame, spot, colour, colour-strong, canonical, and any FILE.npz of a wavefront"
             )),
         }
     }
@@ -44,9 +44,9 @@ impl Source {
 
     /// Every set's name and its `count` scenes; of a wavefront at most that many of its rays, spread over it, in
     /// `medium`, less those that are invalid or not lit.
-    pub(super) fn scenes(&self, medium: &Medium, seed: u64, count: usize) -> Result<Vec<(String, Vec<Scene>)>> {
+    pub(super) fn scenes(&self, medium: &Medium, seed: u64, count: usize) -> Result<Vec<(String, Vec<Coloured>)>> {
         match self {
-            Self::Sets(sets) => Ok(sets.iter().map(|set| (set.name().to_owned(), set.scenes(seed, count))).collect()),
+            Self::Sets(sets) => Ok(sets.iter().map(|set| (set.name().to_owned(), set.coloured(seed, count))).collect()),
             Self::File(path) => {
                 let wavefront = Wavefront::read(path)?;
                 let validity = Validity::of(wavefront.len(), |i| wavefront.ray(i).map(|_| ()));
@@ -54,10 +54,11 @@ impl Source {
                 if let Some(invalid) = &validity.invalid {
                     eprintln!("{}: {invalid}", wavefront.name);
                 }
-                let scene = |i: usize| wavefront.ray(valid[i]).map(|(ray, emitter)| Scene::new(&ray, &emitter, medium));
+                let scene =
+                    |i: usize| wavefront.ray(valid[i]).map(|(ray, emitter)| Coloured::new(&ray, &emitter, medium));
                 let drawn = spread(valid.len(), count.min(valid.len()), seed);
-                let scenes: Vec<Scene> =
-                    drawn.into_iter().flat_map(scene).filter(|scene| scene.lit().is_some()).collect();
+                let scenes: Vec<Coloured> =
+                    drawn.into_iter().flat_map(scene).filter(|scene| scene.mean().lit().is_some()).collect();
                 ensure!(!scenes.is_empty(), "{}: none of the rays is lit", wavefront.name);
                 Ok(vec![(wavefront.name, scenes)])
             }
