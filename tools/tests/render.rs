@@ -7,6 +7,7 @@ use airlight_tools::renderer::film::{Film, Layer};
 use airlight_tools::renderer::picture::Size;
 use airlight_tools::renderer::scene::{Light, Object, Scene, Shape};
 use airlight_tools::renderer::scenes::Name;
+use airlight_tools::renderer::shadow::Shadows;
 use airlight_tools::renderer::variate::{Dimension, Sequence, Variates};
 use airlight_tools::renderer::{Renderer, Settings};
 use glam::{DVec3, Vec3};
@@ -227,8 +228,8 @@ fn assert_near(deviations: &[f64], what: &str) {
 }
 
 fn settings(strategy: Strategy, mis: bool, choice: EmitterChoice) -> Settings {
-    let settings =
-        Settings { sampler: Sampler::new(strategy), mis, choice, variates: Sequence::Independent, seed: SEED };
+    let (sampler, shadows, variates) = (Sampler::new(strategy), Shadows::Plain, Sequence::Independent);
+    let settings = Settings { sampler, mis, choice, shadows, variates, seed: SEED };
     println!("{settings:?}");
     settings
 }
@@ -301,7 +302,7 @@ fn low_discrepancy_variates_give_the_same_picture_with_less_error() {
             let mut renderer = Renderer::new(&scene, SIZE, &Settings { variates, seed, ..settings });
             let mut film = Film::new(SIZE);
             (0..passes).for_each(|_| renderer.pass(&mut film).unwrap());
-            film.mean(Layer::Airlight)
+            film.airlight()
         };
         let truth = render(Sequence::Independent, 64 * PASSES, SEED);
         let rmse = |variates| {
@@ -390,8 +391,8 @@ fn json_tells_what_was_rendered() {
     let figures: Value = serde_json::from_str(&json).unwrap();
     let mut keys: Vec<&String> = figures.as_object().unwrap().keys().collect();
     keys.sort();
-    let expected = "airlight_share height lights mis msamples_per_s passes precision radiance samples scene seconds seed strategy \
-                    threads variates version width";
+    let expected = "airlight_share height lights mis msamples_per_s passes precision radiance samples scene seconds seed shadows \
+                    strategy threads variates version width";
     assert_eq!(keys, expected.split_whitespace().collect::<Vec<_>>());
     assert_eq!((&figures["scene"], &figures["strategy"]), (&"shaft".into(), &"product-9".into()));
     assert_eq!(figures["precision"], "exact");
@@ -484,6 +485,8 @@ fn a_refused_argument_is_named() {
         (&["--size", "100000x100000"], "expected WIDTHxHEIGHT"),
         (&["--spp", "0"], "--spp <N>': expected a whole number of at least 1"),
         (&["--lights", "best"], "--lights <NAME>': expected uniform or choose"),
+        (&["--shadows", "soft"], "--shadows <NAME>': expected plain or ratio"),
+        (&["--shadows", "plain", "--shadows", "ratio"], "several --shadows need --compare"),
         (&["--variates", "random"], "--variates <NAME>': expected sobol or independent"),
         (&["--strategy", "best"], "no strategy is called 'best'; there are transmittance"),
         (&["--strategy", "taylor-phase", "--precision", "fast"], "the strategy taylor-phase has no fast precision"),
