@@ -33,7 +33,7 @@ const PASSES: usize = 64;
 /// Render a scene of spheres and planes in fog; or compare the strategies on it
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// Scene: shaft, many-lights, forward or dense
+    /// Scene: shaft, many-lights, forward, dense or spots
     #[arg(long, value_name = "NAME", default_value_t = Name::Shaft)]
     scene: Name,
     #[arg(long, value_name = "NAME", help = format!("Strategy of the distances [default: product-5]; with --compare it may be repeated [default: all of {}]", names()))]

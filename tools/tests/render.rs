@@ -102,9 +102,21 @@ impl Sight {
         oracle::Scene::new(&ray, &light.emitter, &scene.medium)
     }
 
+    /// The oracle of each channel of the medium.
+    fn oracles(&self, scene: &Scene, light: &Light) -> [oracle::Scene; 3] {
+        [0, 1, 2].map(|c| {
+            let medium = scene.medium.channel(c).unwrap_or(scene.medium);
+            self.oracle(&Scene { medium, ..scene.clone() }, light)
+        })
+    }
+
     /// The scattered radiance, where nothing casts a shadow.
     fn airlight(&self, scene: &Scene) -> DVec3 {
-        scene.lights.iter().map(|light| self.oracle(scene, light).radiance() * light.intensity.as_dvec3()).sum()
+        let of_light = |light: &Light| {
+            let radiances = self.oracles(scene, light).map(|oracle| oracle.radiance());
+            DVec3::from_array(radiances) * light.intensity.as_dvec3()
+        };
+        scene.lights.iter().map(of_light).sum()
     }
 
     /// The scattered radiance with shadows, by the midpoint rule over the angle at the emitter.
@@ -127,21 +139,33 @@ impl Sight {
     /// What the surface emits, and reflects of the lights that it sees.
     fn surface(&self, scene: &Scene) -> DVec3 {
         let Some(object) = self.object.map(|number| &scene.objects[number]) else { return DVec3::ZERO };
-        let mu_t = f64::from(scene.medium.mu_t());
+        let mu_t = [0, 1, 2].map(|c| f64::from(scene.medium.channel(c).unwrap_or(scene.medium).mu_t()));
+        let transmittance = |way: f64| DVec3::from_array(mu_t.map(|mu_t| (-mu_t * way).exp()));
         let x = self.point(self.t_max);
         let reflected = |light: &Light| {
             let (to_light, position) = (position(light.emitter) - x, position(light.emitter));
             let r = to_light.length();
             let facing = facing(object, x, self.direction.as_dvec3());
             let cosine = facing.dot(to_light / r).max(0.0);
-            let from = Vec3::from(light.emitter.normal().unwrap()).as_dvec3().dot(-to_light / r).max(0.0);
+            let from = shine(light.emitter, -to_light / r);
             let seen = f64::from(u8::from(sees(scene, x, light.emitter)));
             assert!(r > 0.0, "{position} is on a surface");
-            let brightness = seen * cosine * from * FRAC_1_PI * (-mu_t * (self.t_max + r)).exp() / (r * r);
+            let brightness = seen * cosine * from * FRAC_1_PI / (r * r) * transmittance(self.t_max + r);
             brightness * object.albedo.as_dvec3() * light.intensity.as_dvec3()
         };
-        object.emission.as_dvec3() * (-mu_t * self.t_max).exp() + scene.lights.iter().map(reflected).sum::<DVec3>()
+        object.emission.as_dvec3() * transmittance(self.t_max) + scene.lights.iter().map(reflected).sum::<DVec3>()
     }
+}
+
+/// The part of its intensity that an emitter has into a direction.
+fn shine(emitter: Emitter, direction: DVec3) -> f64 {
+    let Some(cone) = emitter.cone() else {
+        return Vec3::from(emitter.normal().unwrap()).as_dvec3().dot(direction).max(0.0);
+    };
+    let [outer, inner] = [cone.cos_outer(), cone.cos_inner()].map(f64::from);
+    let x = Vec3::from(cone.axis()).as_dvec3().normalize().dot(direction);
+    let s = ((x - outer) / (inner - outer)).clamp(0.0, 1.0);
+    s * s * (3.0 - 2.0 * s)
 }
 
 fn facing(object: &Object, x: DVec3, direction: DVec3) -> DVec3 {
@@ -287,6 +311,72 @@ fn lamps_shine_through_the_medium() {
         let z = deviations(&scene, &settings, Layer::Surface, &expected);
         assert!(expected.iter().flatten().all(|radiance| radiance.max_element() > 0.1), "{name}: no lamp is seen");
         assert_near(&z, name.name());
+    }
+}
+
+fn rendered(scene: &Scene, settings: &Settings, passes: u64) -> Film {
+    let mut renderer = Renderer::new(scene, SIZE, settings);
+    let mut film = Film::new(SIZE);
+    (0..passes).for_each(|_| renderer.pass(&mut film).unwrap());
+    film
+}
+
+/// Largest relative error of a channel that holds at least a thousandth of the brightest.
+fn largest_error(picture: &[[f64; 3]], truth: &[[f64; 3]]) -> f64 {
+    let brightest = truth.as_flattened().iter().copied().fold(0.0, f64::max);
+    let pairs = picture.as_flattened().iter().zip(truth.as_flattened());
+    pairs.filter(|(_, truth)| **truth > 1e-3 * brightest).map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max)
+}
+
+#[test]
+fn without_occluders_the_ratio_is_the_integral_without_noise() {
+    const PASSES: u64 = 4;
+    for name in Name::ALL {
+        let mut scene = name.scene().unwrap().without_occluders();
+        scene.camera.field_of_view /= 12.0;
+        // So few that in four passes each pixel has a light that lights it.
+        scene.lights.truncate(2);
+        let mut means = vec![[0.0; 3]; SIZE.pixels()];
+        for pass in expected(&scene, PASSES, |sight| sight.airlight(&scene)) {
+            for (mean, radiance) in means.iter_mut().zip(pass) {
+                *mean = (DVec3::from_array(*mean) + radiance / PASSES as f64).to_array();
+            }
+        }
+        for (strategy, mis, choice) in
+            [(Strategy::EquiAngular, false, EmitterChoice::Uniform), (Strategy::Product5, true, EmitterChoice::Choose)]
+        {
+            let plain = settings(strategy, mis, choice);
+            let ratio = rendered(&scene, &Settings { shadows: Shadows::Ratio, ..plain }, PASSES);
+            let error = largest_error(&ratio.airlight(), &means);
+            println!("{name}: {error:.1e}");
+            assert!(error < 1e-3, "{name}: {error}");
+            let integral: Vec<[f64; 3]> =
+                ratio.sum(Layer::Integral).iter().map(|sum| sum.map(|sum| sum / PASSES as f64)).collect();
+            assert!(largest_error(&ratio.airlight(), &integral) < 1e-15, "{name}");
+            assert!(largest_error(&rendered(&scene, &plain, PASSES).airlight(), &means) > 10.0 * error, "{name}");
+        }
+    }
+}
+
+#[test]
+fn with_occluders_the_ratio_converges_to_the_picture() {
+    for name in [Name::Shaft, Name::Spots] {
+        let scene = name.scene().unwrap();
+        for choice in [EmitterChoice::Uniform, EmitterChoice::Choose] {
+            let plain = settings(Strategy::Product5, false, choice);
+            let truth = rendered(&scene, &Settings { seed: SEED + 1, ..plain }, 1 << 14).airlight();
+            let errors = |passes| -> Vec<f64> {
+                let ratio = rendered(&scene, &Settings { shadows: Shadows::Ratio, ..plain }, passes).airlight();
+                ratio.as_flattened().iter().zip(truth.as_flattened()).map(|(a, b)| a - b).collect()
+            };
+            let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+            let rmse = |errors: &[f64]| mean(&errors.iter().map(|error| error * error).collect::<Vec<_>>()).sqrt();
+            let (few, many) = (errors(16), errors(1 << 10));
+            let bias = mean(&many) / mean(truth.as_flattened());
+            println!("{name}, {choice}: rmse {:.2e}, {:.2e}; bias {bias:.1e}", rmse(&few), rmse(&many));
+            // A root of 64 would be 8, less the error of the truth.
+            assert!(rmse(&many) < rmse(&few) / 5.0 && bias.abs() < 0.01, "{name}, {choice}");
+        }
     }
 }
 
@@ -453,6 +543,18 @@ fn a_comparison_has_every_strategy_and_a_sheet() {
 }
 
 #[test]
+fn a_comparison_has_every_estimate_of_shadows() {
+    let arguments = ["--compare", "--size", "20x10", "--spp", "2", "--reference", "4", "--strategy", "product-5"];
+    let both = ["--shadows", "plain", "--shadows", "ratio", "--json", "-"];
+    let figures: Value = serde_json::from_str(&succeed(&[&arguments[..], &both].concat())).unwrap();
+    let names = |row: &Value| ["strategy", "shadows"].map(|key| row[key].as_str().unwrap().to_owned());
+    let rows = figures["results"].as_array().unwrap().iter().map(names);
+    let expected = ["equi-angular", "product-5"].into_iter().flat_map(|s| ["plain", "ratio"].map(|e| [s, e]));
+    assert!(rows.eq(expected.map(|names| names.map(str::to_owned))), "{figures}");
+    assert_eq!(figures["results"][0]["airlight_efficiency"], 1.0);
+}
+
+#[test]
 fn the_error_of_a_comparison_falls_with_the_samples() {
     let rmse = |spp: &str| {
         let arguments = ["--compare", "--size", "24x14", "--reference", "2048", "--scene", "dense", "--spp", spp];
@@ -473,7 +575,7 @@ fn a_refused_argument_is_named() {
     let folder = TempDir::new().unwrap();
     let out = folder.path().join("p.png");
     for (arguments, expected) in [
-        (&["--scene", "cave"][..], "no scene is called 'cave'; there are shaft, many-lights, forward, dense"),
+        (&["--scene", "cave"][..], "no scene is called 'cave'; there are shaft, many-lights, forward, dense, spots"),
         (&["--time", "0"], "--time <SECONDS>': expected a number of seconds greater than 0"),
         (&["--time", "-1"], "expected a number of seconds greater than 0"),
         (&["--time", "nan"], "expected a number of seconds greater than 0"),
