@@ -334,6 +334,8 @@ fn without_occluders_the_ratio_is_the_integral_without_noise() {
     for name in Name::ALL {
         let mut scene = name.scene().unwrap().without_occluders();
         scene.camera.field_of_view /= 12.0;
+        // Where the falloff of a spot begins and ends, eight nodes lose digits.
+        let bound = if scene.lights.iter().any(|light| light.emitter.cone().is_some()) { 1e-2 } else { 1e-5 };
         // So few that in four passes each pixel has a light that lights it.
         scene.lights.truncate(2);
         let mut means = vec![[0.0; 3]; SIZE.pixels()];
@@ -349,7 +351,7 @@ fn without_occluders_the_ratio_is_the_integral_without_noise() {
             let ratio = rendered(&scene, &Settings { shadows: Shadows::Ratio, ..plain }, PASSES);
             let error = largest_error(&ratio.airlight(), &means);
             println!("{name}: {error:.1e}");
-            assert!(error < 1e-3, "{name}: {error}");
+            assert!(error < bound, "{name}: {error}");
             let integral: Vec<[f64; 3]> =
                 ratio.sum(Layer::Integral).iter().map(|sum| sum.map(|sum| sum / PASSES as f64)).collect();
             assert!(largest_error(&ratio.airlight(), &integral) < 1e-15, "{name}");
@@ -372,10 +374,10 @@ fn with_occluders_the_ratio_converges_to_the_picture() {
             let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
             let rmse = |errors: &[f64]| mean(&errors.iter().map(|error| error * error).collect::<Vec<_>>()).sqrt();
             let (few, many) = (errors(16), errors(1 << 10));
-            let bias = mean(&many) / mean(truth.as_flattened());
-            println!("{name}, {choice}: rmse {:.2e}, {:.2e}; bias {bias:.1e}", rmse(&few), rmse(&many));
+            let bias = mean(&many) / (rmse(&many) / (SIZE.pixels() as f64).sqrt());
+            println!("{name}, {choice}: rmse {:.2e}, {:.2e}; z of the bias {bias:.2}", rmse(&few), rmse(&many));
             // A root of 64 would be 8, less the error of the truth.
-            assert!(rmse(&many) < rmse(&few) / 5.0 && bias.abs() < 0.01, "{name}, {choice}");
+            assert!(rmse(&many) < rmse(&few) / 5.0 && bias.abs() < FAR, "{name}, {choice}");
         }
     }
 }

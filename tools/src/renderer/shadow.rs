@@ -20,7 +20,7 @@ pub enum Shadows {
     /// and channel, over all lights and passes.
     ///
     /// What noise the samples have without shadows is in both sums and cancels: a pixel that no shadow reaches is the
-    /// integral. As both sums converge it is consistent. It is biased, for the mean of a quotient is not the quotient of the
+    /// integral. As both sums converge it is consistent, but for the error of the integral with eight nodes. It is biased, for the mean of a quotient is not the quotient of the
     /// means: by an amount that falls as one over the passes, where the error of the plain mean falls as one over their root
     /// or, with Sobol's points, somewhat faster. A pixel of which no sample is lit is black.
     Ratio,

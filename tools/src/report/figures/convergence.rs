@@ -29,8 +29,9 @@ pub(super) fn figure(findings: &Findings<'_>) -> Result<Figure> {
     let of_resampling = resampled.error_after_one_second();
     let all = errors.iter().map(|&(_, error)| error).chain(of_resampling);
     let ends = all.flat_map(|error| [at(error, TIME.0), at(error, TIME.1)]);
+    let (lowest, highest) = around(ends, 1.5);
     let x = Scale::decades("time in the sampler [s]", TIME);
-    let y = Scale::decades("relative error of the radiance", around(ends, 1.5));
+    let y = Scale::decades("relative error of the radiance", (lowest, highest));
     let drawing = canvas::draw("figure-5", "Error of the radiance against time", (400, 5), (x, y), |canvas| {
         for &(strategy, error) in &errors {
             let line = [TIME.0, TIME.1].map(|time| (time, at(error, time)));
@@ -42,7 +43,7 @@ pub(super) fn figure(findings: &Findings<'_>) -> Result<Figure> {
         if let Some(error) = of_resampling {
             let line = [TIME.0, TIME.1].map(|time| (time, at(error, time)));
             canvas.line(line.into_iter(), QUIET, Line::Dashed)?;
-            canvas.say(&format!("dashed: {}", resampled.name()), (0.9 * TIME.1, 0.8 * at(error, TIME.0)))?;
+            canvas.say(&format!("dashed: {}", resampled.name()), (0.9 * TIME.1, 0.5 * highest))?;
         }
         canvas.legend(&names())
     })?;
