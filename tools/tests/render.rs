@@ -1,6 +1,6 @@
 //! `airlight render` as it is met from outside, and its pictures held against quadrature.
 
-use airlight::{Emitter, Precision, Ray, Sampler, Strategy, oracle};
+use airlight::{Emitter, Medium, Precision, Ray, Sampler, Strategy, oracle};
 use airlight_tools::renderer::camera::{Camera, View};
 use airlight_tools::renderer::emitter_choice::EmitterChoice;
 use airlight_tools::renderer::film::{Film, Layer};
@@ -276,6 +276,20 @@ fn airlight_without_occluders_is_the_quadrature_with_and_without_mis() {
             let settings = settings(strategy, mis, choice);
             assert_near(&deviations(scene, &settings, Layer::Airlight, expected), name.name());
         }
+    }
+}
+
+#[test]
+fn each_channel_is_scattered_and_extinguished_by_its_own_coefficients() {
+    let mut scene = Name::Spots.scene().unwrap().without_occluders();
+    scene.camera.field_of_view /= 12.0;
+    scene.medium = Medium::coloured([0.0, 0.05, 0.1], [0.02, 0.06, 0.12], 0.25).unwrap();
+    let airlight = expected(&scene, 40, |sight| sight.airlight(&scene));
+    let surface = expected(&scene, 40, |sight| sight.surface(&scene));
+    for mis in [false, true] {
+        let settings = settings(Strategy::Product5, mis, EmitterChoice::Choose);
+        assert_near(&deviations(&scene, &settings, Layer::Airlight, &airlight), "airlight");
+        assert_near(&deviations(&scene, &settings, Layer::Surface, &surface), "surface");
     }
 }
 
