@@ -4,7 +4,7 @@
 mod figures;
 mod plain;
 
-use self::figures::{Figures, Row};
+pub(crate) use self::figures::{Figures, Row};
 use self::plain::{Line, Plain};
 use crate::arguments::{self, Json};
 use crate::profile::clock::{nanoseconds, warm_up};
@@ -63,14 +63,14 @@ fn set(name: &str) -> Result<Sets, String> {
 /// Runs the comparison.
 pub(crate) fn run(args: &Args) -> Result<()> {
     let json = args.json.target()?;
-    let progress = progress::bar(args.sets().len() * Rule::all(args.precision).len())?;
+    let progress = progress::bar(args.steps())?;
     let figures = measure(args, Part::whole(&progress))?;
     progress.finish_and_clear();
     output::report(&figures, json.as_ref())
 }
 
 /// Errors and times of everything that was asked for.
-fn measure(args: &Args, progress: Part<'_>) -> Result<Figures> {
+pub(crate) fn measure(args: &Args, progress: Part<'_>) -> Result<Figures> {
     let one = threads::pool(1).context("cannot start a thread")?;
     let mut rows = Vec::new();
     for set in args.sets() {
@@ -95,6 +95,11 @@ fn measure(args: &Args, progress: Part<'_>) -> Result<Figures> {
 }
 
 impl Args {
+    /// Rules on sets of scenes.
+    pub(crate) fn steps(&self) -> usize {
+        self.sets().len() * Rule::all(self.precision).len()
+    }
+
     fn sets(&self) -> Vec<Set> {
         if self.set.is_empty() {
             return vec![Set::Generic, Set::Broad, Set::Dense];

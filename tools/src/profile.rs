@@ -20,7 +20,7 @@ use self::work::{Contestant, Kernel, LEAST, Work};
 use crate::arguments::{self, Json, Samplers};
 use crate::progress::Part;
 use crate::{output, progress};
-use airlight::{Backend, Limit, Sampler, Stage, Strategy};
+use airlight::{Backend, Integral, Limit, Nodes, Precision, Sampler, Stage, Strategy};
 use airlight_tools::threads;
 use airlight_tools::workload::{Wanted, Workload};
 use anyhow::{Context, Result, ensure};
@@ -40,6 +40,9 @@ const FEW: [usize; 5] = [1, 8, 33, 64, 1000];
 /// Rays and samples for each of them, where these are many, and the strategy that is measured so.
 const MANY: [(usize, usize); 2] = [(1, 1 << 22), (1 << 17, 1 << 5)];
 const OF_MANY: Strategy = Strategy::Product9;
+/// Rays of which the integral is measured, and emitters of a choice.
+const INTEGRALS: usize = 1 << 16;
+const EMITTERS: usize = 32;
 
 /// Measure how fast every kernel is, its stages apart, beside what the machine allows
 #[derive(Debug, clap::Args)]
@@ -228,6 +231,7 @@ impl Args {
         let mut groups: Vec<_> = self.sizes().iter().map(batches).collect();
         groups.push(("calls of few rays".to_owned(), self.calls(samplers, &pools.one)));
         groups.push(("few rays, many variates".to_owned(), self.many(samplers, &pools.wanted)));
+        groups.push(("the integral".to_owned(), self.integrals(samplers, &pools.one)));
         groups
     }
 
@@ -254,6 +258,21 @@ impl Args {
                     let work = Work::Sample { kernel, per_ray, wanted: Wanted::Densities };
                     Contestant { work, samples: rays * per_ray, pool }
                 }));
+            }
+        }
+        contestants
+    }
+
+    /// The integral by nodes and a choice by it, one thread, in every precision that a sampler has.
+    fn integrals<'a>(&self, samplers: &[Sampler], pool: &'a ThreadPool) -> Vec<Contestant<'a>> {
+        let has = |precision: &&Precision| samplers.iter().any(|sampler| sampler.precision() == **precision);
+        let mut contestants = Vec::new();
+        for backend in self.backends(INTEGRALS) {
+            for &precision in Precision::ALL.iter().filter(has) {
+                let integral = |nodes| Integral::new(nodes).with_precision(precision).with_backend(backend);
+                let works = Nodes::ALL.iter().map(|&nodes| Work::Radiance(integral(nodes)));
+                let works = works.chain([Work::Choose(integral(Nodes::Four), EMITTERS)]);
+                contestants.extend(works.map(|work| Contestant { work, samples: INTEGRALS, pool }));
             }
         }
         contestants

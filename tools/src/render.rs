@@ -18,6 +18,7 @@ use airlight_tools::renderer::emitter_choice::EmitterChoice;
 use airlight_tools::renderer::picture::{Picture, Size};
 use airlight_tools::renderer::scene::Scene;
 use airlight_tools::renderer::scenes::Name;
+use airlight_tools::renderer::shadow::Shadows;
 use airlight_tools::renderer::variate::Sequence;
 use anyhow::{Context, Result, ensure};
 use serde::Serialize;
@@ -32,7 +33,7 @@ const PASSES: usize = 64;
 /// Render a scene of spheres and planes in fog; or compare the strategies on it
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// Scene: shaft, many-lights, forward or dense
+    /// Scene: shaft, many-lights, forward, dense or spots
     #[arg(long, value_name = "NAME", default_value_t = Name::Shaft)]
     scene: Name,
     #[arg(long, value_name = "NAME", help = format!("Strategy of the distances [default: product-5]; with --compare it may be repeated [default: all of {}]", names()))]
@@ -46,6 +47,10 @@ pub(crate) struct Args {
     /// Choice of the light that a ray gathers: uniform, or choose for the integrals with 4 nodes
     #[arg(long, value_name = "NAME", default_value_t)]
     lights: EmitterChoice,
+    /// Estimate of the scattered light: plain for the mean of the samples that see their light, or ratio for the integral
+    /// times the part of the samples that do [default: plain]; with --compare it may be repeated
+    #[arg(long, value_name = "NAME")]
+    shadows: Vec<Shadows>,
     /// Random numbers of the passes: sobol for an Owen-scrambled Sobol sequence of each pixel, or independent
     #[arg(long, value_name = "NAME", default_value_t)]
     variates: Sequence,
@@ -67,7 +72,7 @@ pub(crate) struct Args {
     /// Write the picture: linear to an .exr file, through the tone curve to a .png file
     #[arg(long, value_name = "IMAGE")]
     out: Option<PathBuf>,
-    /// Render with each strategy for the same time, or the same number of passes, and report the errors; --out gets
+    /// Render with each strategy, and each of --shadows, for the same time, or the same number of passes, and report the errors; --out gets
     /// the pictures side by side
     #[arg(long)]
     compare: bool,
@@ -81,6 +86,7 @@ pub(crate) struct Args {
 /// Renders.
 pub(crate) fn run(args: &Args) -> Result<()> {
     ensure!(args.compare || args.strategy.len() <= 1, "several --strategy need --compare");
+    ensure!(args.compare || args.shadows.len() <= 1, "several --shadows need --compare");
     let out = args.out.as_deref().map(ImageFile::new).transpose()?;
     let json = args.json.target()?;
     if out.is_none() && !args.compare {
@@ -104,14 +110,14 @@ pub(crate) fn run(args: &Args) -> Result<()> {
 /// Renders with one strategy.
 fn single(args: &Args, scene: &Scene) -> Result<(Figures, Picture)> {
     let strategy = args.strategy.first().copied().unwrap_or_default();
-    let settings = args.settings(Sampler::new(strategy).with_precision(args.precision)?);
+    let sampler = Sampler::new(strategy).with_precision(args.precision)?;
+    let settings = args.settings(sampler, args.shadows.first().copied().unwrap_or_default());
     let progress = progress::bar(exposure::STEPS)?;
     progress.set_message(strategy.name());
     let mut exposure = Exposure::new(scene, args.size, &settings, args.budget());
     Exposure::complete(from_mut(&mut exposure), &progress)?;
     progress.finish_and_clear();
-    let figures =
-        Figures { job: args.job(), run: Run::new(&settings.sampler, &exposure), radiance: exposure.film.average() };
+    let figures = Figures { job: args.job(), run: Run::new(&settings, &exposure), radiance: exposure.film.average() };
     Ok((figures, exposure.film.picture()))
 }
 
@@ -130,8 +136,9 @@ fn deliver<F: Serialize + Display>(
 }
 
 impl Args {
-    fn settings(&self, sampler: Sampler) -> Settings {
-        Settings { sampler, mis: self.mis, choice: self.lights, variates: self.variates, seed: self.seed }
+    fn settings(&self, sampler: Sampler, shadows: Shadows) -> Settings {
+        let Self { mis, lights: choice, variates, seed, .. } = *self;
+        Settings { sampler, mis, choice, shadows, variates, seed }
     }
 
     fn budget(&self) -> Budget {

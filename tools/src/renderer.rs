@@ -8,7 +8,9 @@
 //!
 //! `camera -> intersection -> emitter_choice -> scattering -> shadow -> film`
 //!
-//! The picture is what [`scenes`] hold: surfaces lit by point-normal lights, in fog that scatters once.
+//! `camera -> intersection -> unshadowed -> film`, for the ratio estimator of shadows alone
+//!
+//! The picture is what [`scenes`] hold: surfaces lit by point-normal lights and spots, in fog that scatters once.
 
 pub mod camera;
 pub mod columns;
@@ -22,6 +24,7 @@ pub mod scenes;
 pub mod shadow;
 pub mod surface;
 pub mod tone;
+pub mod unshadowed;
 pub mod variate;
 
 use self::camera::{RayQueue, View};
@@ -30,7 +33,8 @@ use self::film::{Film, Layer};
 use self::picture::Size;
 use self::scattering::Scattering;
 use self::scene::Scene;
-use self::shadow::ShadowQueue;
+use self::shadow::{ShadowQueue, Shadows};
+use self::unshadowed::Unshadowed;
 use self::variate::{Dimension, Sequence, Variates};
 use airlight::{Error, Sampler};
 use std::time::{Duration, Instant};
@@ -47,6 +51,8 @@ pub struct Settings {
     pub mis: bool,
     /// How the emitter that lights a ray is chosen.
     pub choice: EmitterChoice,
+    /// How the airlight is estimated where there may be shadows.
+    pub shadows: Shadows,
     /// How the random numbers of the passes belong together.
     pub variates: Sequence,
     /// Which ones.
@@ -66,6 +72,8 @@ pub struct Renderer<'a> {
     hits: Vec<u32>,
     /// A shadow ray for the surface, and one for each sampled distance.
     shadows: ShadowQueue,
+    /// For the ratio estimator.
+    unshadowed: Option<Unshadowed>,
     emitted: columns::Vectors,
     u: Vec<f32>,
     inside: Duration,
@@ -75,16 +83,18 @@ impl<'a> Renderer<'a> {
     /// A renderer of pictures of `size` pixels.
     #[must_use]
     pub fn new(scene: &'a Scene, size: Size, settings: &Settings) -> Self {
+        let precision = settings.sampler.precision();
         Self {
             scene,
             view: View::new(&scene.camera, size),
             variates: settings.variates,
             seed: settings.seed,
-            choice: Choice::new(settings.choice, scene, settings.sampler.precision()),
+            choice: Choice::new(settings.choice, scene, precision),
             scattering: Scattering::new(settings.sampler, settings.mis),
             rays: RayQueue::default(),
             hits: Vec::new(),
             shadows: ShadowQueue::default(),
+            unshadowed: (settings.shadows == Shadows::Ratio).then(|| Unshadowed::new(precision)),
             emitted: columns::Vectors::default(),
             u: Vec::new(),
             inside: Duration::ZERO,
@@ -129,6 +139,12 @@ impl<'a> Renderer<'a> {
         film.add(Layer::Surface, first, &self.emitted);
         film.add(Layer::Surface, first, &self.shadows.radiance);
 
+        if let Some(unshadowed) = &mut self.unshadowed {
+            let clock = Instant::now();
+            unshadowed.integrate(self.scene, &self.rays)?;
+            self.inside += clock.elapsed();
+            film.add(Layer::Integral, first, &unshadowed.radiance);
+        }
         variates.fill(Dimension::Emitter, first, count, &mut self.u);
         let clock = Instant::now();
         self.choice.choose(self.scene, &self.rays, &self.u)?;
@@ -139,6 +155,9 @@ impl<'a> Renderer<'a> {
             self.scattering.sample(density, self.scene, &self.rays, &self.choice, &self.u)?;
             self.inside += clock.elapsed();
             self.scattering.light(self.scene, &self.rays, &self.choice, &mut self.shadows);
+            if self.unshadowed.is_some() {
+                film.add(Layer::Unshadowed, first, &self.shadows.radiance);
+            }
             self.shadows.trace(self.scene);
             film.add(Layer::Airlight, first, &self.shadows.radiance);
         }

@@ -1,8 +1,10 @@
 //! `airlight sample`: samples a wavefront over and over, and holds the result against the oracle.
 
 mod figures;
+mod resampling;
 
 pub(crate) use self::figures::{Figures, Row};
+pub(crate) use self::resampling::{Resampled, resample};
 use crate::arguments::{self, Json};
 use crate::check::{Check, Comparison};
 use crate::output::{self, Target};
@@ -80,7 +82,7 @@ pub(crate) fn run(args: &Args) -> Result<()> {
 /// The figures of every sampler, and the first repetition of the last.
 pub(crate) fn measure(args: &Args, progress: Part<'_>) -> Result<(Figures, Columns)> {
     let samplers = args.samplers()?;
-    let wavefront = &args.wavefront.as_deref().map_or_else(Wavefront::cornell, Wavefront::read)?;
+    let wavefront = &args.wavefront()?;
     let check = |i| wavefront.ray(i).and(wavefront.variate(i)).map(|_| ());
     let validity = Validity::of(wavefront.len(), check);
     let valid = validity.first(args.rays.min(wavefront.len())).with_context(|| wavefront.name.clone())?;
@@ -110,8 +112,17 @@ pub(crate) fn measure(args: &Args, progress: Part<'_>) -> Result<(Figures, Colum
 }
 
 impl Args {
+    fn wavefront(&self) -> Result<Wavefront> {
+        self.wavefront.as_deref().map_or_else(Wavefront::cornell, Wavefront::read)
+    }
+
     fn samplers(&self) -> Result<Vec<Sampler>> {
         arguments::samplers(&self.strategy, &[self.precision])
+    }
+
+    /// Samples to draw with each strategy.
+    pub(crate) fn rays(&self) -> usize {
+        self.rays
     }
 
     /// Samples to draw in all.

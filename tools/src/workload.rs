@@ -58,6 +58,17 @@ pub fn medium() -> Medium {
     Medium::new(mu_a, mu_s, g).expect("a medium")
 }
 
+/// Emitters in the same box, for a choice among them.
+#[must_use]
+pub fn emitters(count: usize) -> Vec<Emitter> {
+    let mut draw = Draw::new(0, 72, 0);
+    let mut emitter = || {
+        let position = [(); 3].map(|()| draw.between(-5.0, 5.0));
+        Emitter::point_normal(position, draw.direction()).expect("a unit normal")
+    };
+    (0..count).map(|_| emitter()).collect()
+}
+
 impl Workload {
     /// Up to `n` rays, and a variate for each.
     #[must_use]

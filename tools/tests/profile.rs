@@ -34,7 +34,8 @@ fn every_strategy_is_measured_in_every_precision_on_every_backend_and_number_of_
     let rows = rows(&["--rays", "64", "--rays", "71", "--threads", "1", "--threads", "2", "--rounds", "1"]);
     for row in &rows {
         let names = [&row["strategy"], &row["precision"]].map(|name| name.as_str().unwrap_or(""));
-        assert!(samplers().any(|sampler| names == sampler) || names == ["", ""], "{row}");
+        let is_sampler = samplers().any(|sampler| names == sampler);
+        assert!(is_sampler || names == ["", ""] || !row["nodes"].is_null(), "{row}");
     }
     for [strategy, precision] in samplers() {
         for backend in Backend::available() {
@@ -233,6 +234,26 @@ fn instructions_are_counted_in_every_precision_where_there_is_valgrind() {
 }
 
 #[test]
+fn the_integral_is_measured_by_nodes_and_the_choice_by_it() {
+    let rows = rows(&["--rays", "64", "--threads", "1", "--rounds", "1", "--strategy", "equi-angular"]);
+    let of_integral: Vec<&Value> = rows.iter().filter(|row| !row["nodes"].is_null()).collect();
+    let told = |row: &&Value| {
+        let names = ["precision", "backend", "stage"].map(|key| row[key].as_str().unwrap().to_owned());
+        (names, row["nodes"].as_u64().unwrap(), row["emitters"].as_u64())
+    };
+    let mut expected = Vec::new();
+    for backend in Backend::available() {
+        for precision in Precision::ALL {
+            let names = |stage: &str| [precision.name(), backend.name(), stage].map(str::to_owned);
+            expected.extend([4, 6, 8, 12].map(|nodes| (names("radiance"), nodes, None)));
+            expected.push((names("choose"), 4, Some(32)));
+        }
+    }
+    assert_eq!(of_integral.iter().map(told).collect::<Vec<_>>(), expected);
+    assert!(of_integral.iter().all(|row| is_positive(&row["ns_per_sample"])), "{of_integral:?}");
+}
+
+#[test]
 fn a_table_fits_a_terminal() {
     let strategies = ["--strategy", "taylor-transmittance", "--strategy", "product-9"];
     let output = profile(&[&["--rays", "64", "--rounds", "1"], &strategies[..]].concat());
@@ -245,6 +266,7 @@ fn a_table_fits_a_terminal() {
         "stages",
         "time of a call",
         "few rays, many variates",
+        "the integral, 1 thread",
         "times as fast as portable",
     ] {
         // A title, a table of a head and a row at least, a legend.

@@ -1,12 +1,13 @@
 //! `airlight render` as it is met from outside, and its pictures held against quadrature.
 
-use airlight::{Emitter, Precision, Ray, Sampler, Strategy, oracle};
+use airlight::{Emitter, Medium, Precision, Ray, Sampler, Strategy, oracle};
 use airlight_tools::renderer::camera::{Camera, View};
 use airlight_tools::renderer::emitter_choice::EmitterChoice;
 use airlight_tools::renderer::film::{Film, Layer};
 use airlight_tools::renderer::picture::Size;
 use airlight_tools::renderer::scene::{Light, Object, Scene, Shape};
 use airlight_tools::renderer::scenes::Name;
+use airlight_tools::renderer::shadow::Shadows;
 use airlight_tools::renderer::variate::{Dimension, Sequence, Variates};
 use airlight_tools::renderer::{Renderer, Settings};
 use glam::{DVec3, Vec3};
@@ -101,9 +102,21 @@ impl Sight {
         oracle::Scene::new(&ray, &light.emitter, &scene.medium)
     }
 
+    /// The oracle of each channel of the medium.
+    fn oracles(&self, scene: &Scene, light: &Light) -> [oracle::Scene; 3] {
+        [0, 1, 2].map(|c| {
+            let medium = scene.medium.channel(c).unwrap_or(scene.medium);
+            self.oracle(&Scene { medium, ..scene.clone() }, light)
+        })
+    }
+
     /// The scattered radiance, where nothing casts a shadow.
     fn airlight(&self, scene: &Scene) -> DVec3 {
-        scene.lights.iter().map(|light| self.oracle(scene, light).radiance() * light.intensity.as_dvec3()).sum()
+        let of_light = |light: &Light| {
+            let radiances = self.oracles(scene, light).map(|oracle| oracle.radiance());
+            DVec3::from_array(radiances) * light.intensity.as_dvec3()
+        };
+        scene.lights.iter().map(of_light).sum()
     }
 
     /// The scattered radiance with shadows, by the midpoint rule over the angle at the emitter.
@@ -126,21 +139,33 @@ impl Sight {
     /// What the surface emits, and reflects of the lights that it sees.
     fn surface(&self, scene: &Scene) -> DVec3 {
         let Some(object) = self.object.map(|number| &scene.objects[number]) else { return DVec3::ZERO };
-        let mu_t = f64::from(scene.medium.mu_t());
+        let mu_t = [0, 1, 2].map(|c| f64::from(scene.medium.channel(c).unwrap_or(scene.medium).mu_t()));
+        let transmittance = |way: f64| DVec3::from_array(mu_t.map(|mu_t| (-mu_t * way).exp()));
         let x = self.point(self.t_max);
         let reflected = |light: &Light| {
             let (to_light, position) = (position(light.emitter) - x, position(light.emitter));
             let r = to_light.length();
             let facing = facing(object, x, self.direction.as_dvec3());
             let cosine = facing.dot(to_light / r).max(0.0);
-            let from = Vec3::from(light.emitter.normal().unwrap()).as_dvec3().dot(-to_light / r).max(0.0);
+            let from = shine(light.emitter, -to_light / r);
             let seen = f64::from(u8::from(sees(scene, x, light.emitter)));
             assert!(r > 0.0, "{position} is on a surface");
-            let brightness = seen * cosine * from * FRAC_1_PI * (-mu_t * (self.t_max + r)).exp() / (r * r);
+            let brightness = seen * cosine * from * FRAC_1_PI / (r * r) * transmittance(self.t_max + r);
             brightness * object.albedo.as_dvec3() * light.intensity.as_dvec3()
         };
-        object.emission.as_dvec3() * (-mu_t * self.t_max).exp() + scene.lights.iter().map(reflected).sum::<DVec3>()
+        object.emission.as_dvec3() * transmittance(self.t_max) + scene.lights.iter().map(reflected).sum::<DVec3>()
     }
+}
+
+/// The part of its intensity that an emitter has into a direction.
+fn shine(emitter: Emitter, direction: DVec3) -> f64 {
+    let Some(cone) = emitter.cone() else {
+        return Vec3::from(emitter.normal().unwrap()).as_dvec3().dot(direction).max(0.0);
+    };
+    let [outer, inner] = [cone.cos_outer(), cone.cos_inner()].map(f64::from);
+    let x = Vec3::from(cone.axis()).as_dvec3().normalize().dot(direction);
+    let s = ((x - outer) / (inner - outer)).clamp(0.0, 1.0);
+    s * s * (3.0 - 2.0 * s)
 }
 
 fn facing(object: &Object, x: DVec3, direction: DVec3) -> DVec3 {
@@ -227,8 +252,8 @@ fn assert_near(deviations: &[f64], what: &str) {
 }
 
 fn settings(strategy: Strategy, mis: bool, choice: EmitterChoice) -> Settings {
-    let settings =
-        Settings { sampler: Sampler::new(strategy), mis, choice, variates: Sequence::Independent, seed: SEED };
+    let (sampler, shadows, variates) = (Sampler::new(strategy), Shadows::Plain, Sequence::Independent);
+    let settings = Settings { sampler, mis, choice, shadows, variates, seed: SEED };
     println!("{settings:?}");
     settings
 }
@@ -251,6 +276,20 @@ fn airlight_without_occluders_is_the_quadrature_with_and_without_mis() {
             let settings = settings(strategy, mis, choice);
             assert_near(&deviations(scene, &settings, Layer::Airlight, expected), name.name());
         }
+    }
+}
+
+#[test]
+fn each_channel_is_scattered_and_extinguished_by_its_own_coefficients() {
+    let mut scene = Name::Spots.scene().unwrap().without_occluders();
+    scene.camera.field_of_view /= 12.0;
+    scene.medium = Medium::coloured([0.0, 0.05, 0.1], [0.02, 0.06, 0.12], 0.25).unwrap();
+    let airlight = expected(&scene, 40, |sight| sight.airlight(&scene));
+    let surface = expected(&scene, 40, |sight| sight.surface(&scene));
+    for mis in [false, true] {
+        let settings = settings(Strategy::Product5, mis, EmitterChoice::Choose);
+        assert_near(&deviations(&scene, &settings, Layer::Airlight, &airlight), "airlight");
+        assert_near(&deviations(&scene, &settings, Layer::Surface, &surface), "surface");
     }
 }
 
@@ -289,6 +328,74 @@ fn lamps_shine_through_the_medium() {
     }
 }
 
+fn rendered(scene: &Scene, settings: &Settings, passes: u64) -> Film {
+    let mut renderer = Renderer::new(scene, SIZE, settings);
+    let mut film = Film::new(SIZE);
+    (0..passes).for_each(|_| renderer.pass(&mut film).unwrap());
+    film
+}
+
+/// Largest relative error of a channel that holds at least a thousandth of the brightest.
+fn largest_error(picture: &[[f64; 3]], truth: &[[f64; 3]]) -> f64 {
+    let brightest = truth.as_flattened().iter().copied().fold(0.0, f64::max);
+    let pairs = picture.as_flattened().iter().zip(truth.as_flattened());
+    pairs.filter(|(_, truth)| **truth > 1e-3 * brightest).map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max)
+}
+
+#[test]
+fn without_occluders_the_ratio_is_the_integral_without_noise() {
+    const PASSES: u64 = 4;
+    for name in Name::ALL {
+        let mut scene = name.scene().unwrap().without_occluders();
+        scene.camera.field_of_view /= 12.0;
+        // Where the falloff of a spot begins and ends, eight nodes lose digits.
+        let bound = if scene.lights.iter().any(|light| light.emitter.cone().is_some()) { 1e-2 } else { 1e-5 };
+        // So few that in four passes each pixel has a light that lights it.
+        scene.lights.truncate(2);
+        let mut means = vec![[0.0; 3]; SIZE.pixels()];
+        for pass in expected(&scene, PASSES, |sight| sight.airlight(&scene)) {
+            for (mean, radiance) in means.iter_mut().zip(pass) {
+                *mean = (DVec3::from_array(*mean) + radiance / PASSES as f64).to_array();
+            }
+        }
+        for (strategy, mis, choice) in
+            [(Strategy::EquiAngular, false, EmitterChoice::Uniform), (Strategy::Product5, true, EmitterChoice::Choose)]
+        {
+            let plain = settings(strategy, mis, choice);
+            let ratio = rendered(&scene, &Settings { shadows: Shadows::Ratio, ..plain }, PASSES);
+            let error = largest_error(&ratio.airlight(), &means);
+            println!("{name}: {error:.1e}");
+            assert!(error < bound, "{name}: {error}");
+            let integral: Vec<[f64; 3]> =
+                ratio.sum(Layer::Integral).iter().map(|sum| sum.map(|sum| sum / PASSES as f64)).collect();
+            assert!(largest_error(&ratio.airlight(), &integral) < 1e-15, "{name}");
+            assert!(largest_error(&rendered(&scene, &plain, PASSES).airlight(), &means) > 10.0 * error, "{name}");
+        }
+    }
+}
+
+#[test]
+fn with_occluders_the_ratio_converges_to_the_picture() {
+    for name in [Name::Shaft, Name::Spots] {
+        let scene = name.scene().unwrap();
+        for choice in [EmitterChoice::Uniform, EmitterChoice::Choose] {
+            let plain = settings(Strategy::Product5, false, choice);
+            let truth = rendered(&scene, &Settings { seed: SEED + 1, ..plain }, 1 << 14).airlight();
+            let errors = |passes| -> Vec<f64> {
+                let ratio = rendered(&scene, &Settings { shadows: Shadows::Ratio, ..plain }, passes).airlight();
+                ratio.as_flattened().iter().zip(truth.as_flattened()).map(|(a, b)| a - b).collect()
+            };
+            let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+            let rmse = |errors: &[f64]| mean(&errors.iter().map(|error| error * error).collect::<Vec<_>>()).sqrt();
+            let (few, many) = (errors(16), errors(1 << 10));
+            let bias = mean(&many) / (rmse(&many) / (SIZE.pixels() as f64).sqrt());
+            println!("{name}, {choice}: rmse {:.2e}, {:.2e}; z of the bias {bias:.2}", rmse(&few), rmse(&many));
+            // A root of 64 would be 8, less the error of the truth.
+            assert!(rmse(&many) < rmse(&few) / 5.0 && bias.abs() < FAR, "{name}, {choice}");
+        }
+    }
+}
+
 /// Sobol's variates are no independent ones, and have no standard error: the errors that are left fall faster with the
 /// passes than theirs, which halve where there are four times as many.
 #[test]
@@ -301,7 +408,7 @@ fn low_discrepancy_variates_give_the_same_picture_with_less_error() {
             let mut renderer = Renderer::new(&scene, SIZE, &Settings { variates, seed, ..settings });
             let mut film = Film::new(SIZE);
             (0..passes).for_each(|_| renderer.pass(&mut film).unwrap());
-            film.mean(Layer::Airlight)
+            film.airlight()
         };
         let truth = render(Sequence::Independent, 64 * PASSES, SEED);
         let rmse = |variates| {
@@ -390,8 +497,8 @@ fn json_tells_what_was_rendered() {
     let figures: Value = serde_json::from_str(&json).unwrap();
     let mut keys: Vec<&String> = figures.as_object().unwrap().keys().collect();
     keys.sort();
-    let expected = "airlight_share height lights mis msamples_per_s passes precision radiance samples scene seconds seed strategy \
-                    threads variates version width";
+    let expected = "airlight_share height lights mis msamples_per_s passes precision radiance samples scene seconds seed shadows \
+                    strategy threads variates version width";
     assert_eq!(keys, expected.split_whitespace().collect::<Vec<_>>());
     assert_eq!((&figures["scene"], &figures["strategy"]), (&"shaft".into(), &"product-9".into()));
     assert_eq!(figures["precision"], "exact");
@@ -452,6 +559,18 @@ fn a_comparison_has_every_strategy_and_a_sheet() {
 }
 
 #[test]
+fn a_comparison_has_every_estimate_of_shadows() {
+    let arguments = ["--compare", "--size", "20x10", "--spp", "2", "--reference", "4", "--strategy", "product-5"];
+    let both = ["--shadows", "plain", "--shadows", "ratio", "--json", "-"];
+    let figures: Value = serde_json::from_str(&succeed(&[&arguments[..], &both].concat())).unwrap();
+    let names = |row: &Value| ["strategy", "shadows"].map(|key| row[key].as_str().unwrap().to_owned());
+    let rows = figures["results"].as_array().unwrap().iter().map(names);
+    let expected = ["equi-angular", "product-5"].into_iter().flat_map(|s| ["plain", "ratio"].map(|e| [s, e]));
+    assert!(rows.eq(expected.map(|names| names.map(str::to_owned))), "{figures}");
+    assert_eq!(figures["results"][0]["airlight_efficiency"], 1.0);
+}
+
+#[test]
 fn the_error_of_a_comparison_falls_with_the_samples() {
     let rmse = |spp: &str| {
         let arguments = ["--compare", "--size", "24x14", "--reference", "2048", "--scene", "dense", "--spp", spp];
@@ -472,7 +591,7 @@ fn a_refused_argument_is_named() {
     let folder = TempDir::new().unwrap();
     let out = folder.path().join("p.png");
     for (arguments, expected) in [
-        (&["--scene", "cave"][..], "no scene is called 'cave'; there are shaft, many-lights, forward, dense"),
+        (&["--scene", "cave"][..], "no scene is called 'cave'; there are shaft, many-lights, forward, dense, spots"),
         (&["--time", "0"], "--time <SECONDS>': expected a number of seconds greater than 0"),
         (&["--time", "-1"], "expected a number of seconds greater than 0"),
         (&["--time", "nan"], "expected a number of seconds greater than 0"),
@@ -484,6 +603,8 @@ fn a_refused_argument_is_named() {
         (&["--size", "100000x100000"], "expected WIDTHxHEIGHT"),
         (&["--spp", "0"], "--spp <N>': expected a whole number of at least 1"),
         (&["--lights", "best"], "--lights <NAME>': expected uniform or choose"),
+        (&["--shadows", "soft"], "--shadows <NAME>': expected plain or ratio"),
+        (&["--shadows", "plain", "--shadows", "ratio"], "several --shadows need --compare"),
         (&["--variates", "random"], "--variates <NAME>': expected sobol or independent"),
         (&["--strategy", "best"], "no strategy is called 'best'; there are transmittance"),
         (&["--strategy", "taylor-phase", "--precision", "fast"], "the strategy taylor-phase has no fast precision"),

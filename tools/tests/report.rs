@@ -27,7 +27,13 @@ const FIGURES: [&str; 10] = [
     "figure-5",
 ];
 
-const DATA: [&str; 6] = ["accuracy", "profile", "sample", "summary", "variance-broad", "variance-canonical"];
+/// All figures.
+fn drawings() -> impl Iterator<Item = &'static str> {
+    FIGURES.into_iter().chain(["figure-6"])
+}
+
+const DATA: [&str; 8] =
+    ["accuracy", "integral", "profile", "resampling", "sample", "summary", "variance-broad", "variance-canonical"];
 
 /// A folder with a report of few scenes and rays.
 static REPORT: LazyLock<TempDir> = LazyLock::new(|| {
@@ -111,6 +117,32 @@ fn figure_2_has_both_precisions_and_the_peers() {
 }
 
 #[test]
+fn figure_6_has_every_rule_of_the_integral() {
+    let rows = json("integral.json");
+    let svg = text("figure-6.svg");
+    let document = parse(&svg);
+    assert_eq!(document.descendants().filter(|node| node.tag_name().name() == "circle").count(), rows.len());
+    let said: Vec<&str> = document.descendants().filter_map(|node| node.text()).map(str::trim).collect();
+    for name in ["airlight, 4", "Gauss in the angle, 4", "12", "equal steps in the angle, 64", "equal steps in t, 64"] {
+        assert!(said.contains(&name), "{name}: {said:?}");
+    }
+}
+
+#[test]
+fn figure_5_has_the_resampled_candidates() {
+    let resampled: Value = serde_json::from_str(&text("resampling.json")).unwrap();
+    let sample: Value = serde_json::from_str(&text("sample.json")).unwrap();
+    let radiance = |row: &Value| ["radiance", "radiance_stderr"].map(|key| row[key].as_f64().unwrap());
+    let ([ours, error], equi_angular) = (radiance(&resampled), &sample["results"][1]);
+    let [theirs, their_error] = radiance(equi_angular);
+    assert_eq!(equi_angular["strategy"], "equi-angular");
+    assert!((ours - theirs).abs() < 5.0 * error.hypot(their_error), "{ours} +- {error}, {theirs} +- {their_error}");
+    // The mean of eight has a root of eight less error.
+    assert!((their_error / error / 8f64.sqrt() - 1.0).abs() < 0.2, "{error}, {their_error}");
+    assert!(text("figure-5.svg").contains("resampling of 8 equi-angular candidates"));
+}
+
+#[test]
 fn every_figure_has_a_mark_for_every_strategy() {
     let summary = json("summary.json");
     assert_eq!(summary.len(), samplers().count());
@@ -165,7 +197,7 @@ fn the_page_is_well_formed_and_has_all_within_itself() {
         assert!(!rest.contains(outside), "{outside}");
     }
     let count = |name: &str| document.descendants().filter(|node| node.tag_name().name() == name).count();
-    assert_eq!((count("figure"), count("figcaption")), (5, 5));
+    assert_eq!((count("figure"), count("figcaption")), (6, 6));
     for strategy in Strategy::ALL {
         assert!(page.contains(&format!("</svg> {strategy}</th>")), "{strategy}");
     }
@@ -173,7 +205,7 @@ fn the_page_is_well_formed_and_has_all_within_itself() {
 
 #[test]
 fn every_drawing_is_there_as_svg_and_png() {
-    for name in FIGURES {
+    for name in drawings() {
         let png = fs::read(file(&format!("{name}.png"))).unwrap();
         let reader = png::Decoder::new(Cursor::new(png)).read_info().unwrap();
         assert_eq!(reader.info().width, 1040, "{name}");
@@ -190,7 +222,7 @@ fn every_drawing_is_there_as_svg_and_png() {
 #[test]
 fn letters_are_large_enough_for_a_telephone() {
     // The page leaves 366 of its 390 pixels to a drawing.
-    for name in FIGURES {
+    for name in drawings() {
         let svg = text(&format!("{name}.svg"));
         let document = parse(&svg);
         let units: f64 =

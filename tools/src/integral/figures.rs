@@ -10,24 +10,24 @@ use std::fmt;
 /// A row per set and rule.
 #[derive(Debug, Serialize)]
 #[serde(transparent)]
-pub(super) struct Figures(pub(super) Vec<Row>);
+pub(crate) struct Figures(pub(crate) Vec<Row>);
 
 /// The relative errors of one rule on one set; the names of the fields are the keys of the JSON, which others read.
 #[derive(Debug, Serialize)]
-pub(super) struct Row {
-    rule: &'static str,
+pub(crate) struct Row {
+    pub(crate) rule: &'static str,
     /// Evaluations of the integrand for a ray.
-    nodes: usize,
+    pub(crate) nodes: usize,
     /// That of the geometry.
     precision: &'static str,
-    set: &'static str,
+    pub(crate) set: &'static str,
     scenes: usize,
     /// Scenes of which f32 has the radiance with all digits.
-    compared: usize,
-    median: Option<f64>,
-    p99: Option<f64>,
+    pub(crate) compared: usize,
+    pub(crate) median: Option<f64>,
+    pub(crate) p99: Option<f64>,
     max: Option<f64>,
-    ns_per_ray: f64,
+    pub(crate) ns_per_ray: f64,
 }
 
 impl Row {

@@ -8,6 +8,10 @@ pub(crate) const TOTAL: &str = "total";
 pub(super) const CALL: &str = "call";
 /// The same of `sample_one`, which writes weights and `r` as well.
 pub(super) const ONE: &str = "one";
+/// [`Integral::radiance`](airlight::Integral::radiance).
+pub(super) const RADIANCE: &str = "radiance";
+/// [`Integral::choose`](airlight::Integral::choose).
+pub(super) const CHOOSE: &str = "choose";
 
 /// The names of the fields are keys of the JSON, which others read.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
@@ -25,8 +29,12 @@ pub(crate) struct Subject {
     pub(crate) rays: Option<usize>,
     pub(crate) samples_per_ray: usize,
     /// A part of the kernel, or [`TOTAL`], or `with-weight`, where weights and `r` are written as well; or [`CALL`], or
-    /// [`ONE`].
+    /// [`ONE`]; or, of the integral, [`RADIANCE`] or [`CHOOSE`].
     pub(crate) stage: Option<&'static str>,
+    /// Nodes of the integral.
+    pub(crate) nodes: Option<usize>,
+    /// Emitters of a choice; its time is that of all of them.
+    pub(crate) emitters: Option<usize>,
 }
 
 impl Subject {

@@ -3,9 +3,9 @@
 use super::clock::{nanoseconds, warm_up};
 use super::peers::{Peer, Peers};
 use super::streams::Stream;
-use super::subject::{CALL, ONE, Subject, TOTAL};
-use airlight::{Backend, Sampler, Stage};
-use airlight_tools::workload::{Wanted, Workload, emitter, medium};
+use super::subject::{CALL, CHOOSE, ONE, RADIANCE, Subject, TOTAL};
+use airlight::{Backend, Integral, Sampler, Stage};
+use airlight_tools::workload::{Wanted, Workload, emitter, emitters, medium};
 use anyhow::Result;
 use rayon::ThreadPool;
 use std::hint::black_box;
@@ -43,6 +43,10 @@ pub(super) enum Work<'a> {
     Calls(Kernel),
     /// The same of [`Sampler::sample_one`].
     OneByOne(Kernel),
+    /// The integral of each ray.
+    Radiance(Integral),
+    /// A choice among so many emitters for each ray.
+    Choose(Integral, usize),
 }
 
 /// Work of the threads of a pool on so many samples.
@@ -68,6 +72,13 @@ impl Contestant<'_> {
             stage: Some(stage),
             ..subject
         };
+        let of_integral = |integral: Integral, stage| Subject {
+            precision: Some(integral.precision().name()),
+            backend: Some(integral.backend().name()),
+            nodes: Some(integral.nodes().count()),
+            stage: Some(stage),
+            ..subject
+        };
         match self.work {
             Work::Sample { kernel, per_ray, wanted } => {
                 let stage = match wanted {
@@ -88,6 +99,8 @@ impl Contestant<'_> {
             Work::Peer(peers, peer) => peers.subject(peer, subject),
             Work::Calls(kernel) => of(kernel, CALL),
             Work::OneByOne(kernel) => of(kernel, ONE),
+            Work::Radiance(integral) => of_integral(integral, RADIANCE),
+            Work::Choose(integral, emitters) => Subject { emitters: Some(emitters), ..of_integral(integral, CHOOSE) },
         }
     }
 
@@ -177,6 +190,22 @@ impl Contestant<'_> {
                     for call in 0..calls {
                         black_box(all.part(call * samples, samples).sample(&kernel.sampler)?);
                     }
+                    Ok(())
+                })
+            }
+            Work::Radiance(integral) => {
+                let call = workload.call(samples, 1, Wanted::Densities);
+                Box::new(move || {
+                    integral.radiance(&call.rays, &call.emitters, &call.media, call.samples.t)?;
+                    Ok(())
+                })
+            }
+            Work::Choose(integral, count) => {
+                let call = workload.call(samples, 1, Wanted::Densities);
+                let (table, weights, mut index) = (emitters(count), vec![1.0; count], vec![0; samples]);
+                Box::new(move || {
+                    let (rays, media, probability) = (&call.rays, &call.media, &mut *call.samples.pdf);
+                    integral.choose(rays, &table, &weights, media, call.u, &mut index, probability)?;
                     Ok(())
                 })
             }

@@ -6,9 +6,10 @@ use super::{Args, sheet};
 use crate::{arguments, progress, table};
 use airlight::{Sampler, Strategy};
 use airlight_tools::renderer::Settings;
-use airlight_tools::renderer::film::{Film, Layer};
+use airlight_tools::renderer::film::Film;
 use airlight_tools::renderer::picture::Picture;
 use airlight_tools::renderer::scene::Scene;
+use airlight_tools::renderer::shadow::Shadows;
 use anyhow::Result;
 use serde::Serialize;
 use std::fmt;
@@ -33,7 +34,7 @@ struct Row {
     #[serde(flatten)]
     run: Run,
     airlight_rmse: Option<f64>,
-    /// `1/(MSE time)` relative to equi-angular.
+    /// `1/(MSE time)` relative to equi-angular with the first estimate of shadows.
     airlight_efficiency: Option<f64>,
     picture_rmse: Option<f64>,
     picture_efficiency: Option<f64>,
@@ -41,13 +42,13 @@ struct Row {
 
 /// The figures, and the pictures side by side.
 pub(super) fn compare(args: &Args, scene: &Scene) -> Result<(Comparison, Picture)> {
-    let samplers = samplers(args)?;
-    let progress = progress::bar((samplers.len() + 2) * STEPS)?;
+    let contestants = contestants(args)?;
+    let progress = progress::bar((contestants.len() + 2) * STEPS)?;
     progress.set_message("reference");
     // Its seeds are its own: shared random numbers would be shared errors.
     let half = |half: u64| {
         let seed = args.seed.wrapping_add(half << 62);
-        let settings = Settings { mis: false, seed, ..args.settings(Sampler::new(REFERENCE)) };
+        let settings = Settings { mis: false, seed, ..args.settings(Sampler::new(REFERENCE), Shadows::Plain) };
         Exposure::new(scene, args.size, &settings, Budget::Passes(args.reference.div_ceil(2) as u64))
     };
     let mut halves = [half(1), half(2)];
@@ -55,27 +56,45 @@ pub(super) fn compare(args: &Args, scene: &Scene) -> Result<(Comparison, Picture
     let reference = halves.map(|half| half.film);
 
     progress.set_message("strategies in turn");
-    let exposure = |&sampler: &Sampler| Exposure::new(scene, args.size, &args.settings(sampler), args.budget());
-    let mut exposures: Vec<Exposure<'_>> = samplers.iter().map(exposure).collect();
+    let exposure = |settings: &Settings| Exposure::new(scene, args.size, settings, args.budget());
+    let mut exposures: Vec<Exposure<'_>> = contestants.iter().map(exposure).collect();
     Exposure::complete(&mut exposures, &progress)?;
     progress.finish_and_clear();
 
-    let baseline = samplers.iter().position(is_baseline);
-    let airlight = Errors::new(&reference, &exposures, baseline, |film| film.mean(Layer::Airlight));
+    let baseline = contestants.iter().position(|settings| is_baseline(&settings.sampler));
+    let airlight = Errors::new(&reference, &exposures, baseline, Film::airlight);
     let picture = Errors::new(&reference, &exposures, baseline, Film::total);
-    let row = |(i, (sampler, exposure))| Row {
-        run: Run::new(sampler, exposure),
+    let row = |(i, (settings, exposure))| Row {
+        run: Run::new(settings, exposure),
         airlight_rmse: airlight.rmse(i),
         airlight_efficiency: airlight.efficiency(i),
         picture_rmse: picture.rmse(i),
         picture_efficiency: picture.efficiency(i),
     };
-    let results = samplers.iter().zip(&exposures).enumerate().map(row).collect();
+    let results = contestants.iter().zip(&exposures).enumerate().map(row).collect();
     let reference_passes = reference.iter().map(Film::passes).sum();
-    let mut pictures = vec![("reference", mean_picture(&reference))];
-    pictures.extend(samplers.iter().zip(&exposures).map(|(sampler, e)| (sampler.strategy().name(), e.film.picture())));
+    let mut pictures = vec![("reference".to_owned(), mean_picture(&reference))];
+    let picture = |(settings, e): (&Settings, &Exposure<'_>)| (name(settings), e.film.picture());
+    pictures.extend(contestants.iter().zip(&exposures).map(picture));
     let comparison = Comparison { job: args.job(), reference_passes, results };
     Ok((comparison, sheet::lay_out(&pictures, 1.0 / scene.exposure)))
+}
+
+/// Every sampler with each estimate of shadows that was asked for.
+fn contestants(args: &Args) -> Result<Vec<Settings>> {
+    let samplers = samplers(args)?;
+    let shadows = if args.shadows.is_empty() { &[Shadows::Plain][..] } else { &args.shadows };
+    let settings = |&sampler: &Sampler| shadows.iter().map(move |&shadows| args.settings(sampler, shadows));
+    Ok(samplers.iter().flat_map(settings).collect())
+}
+
+/// What a picture is called: the strategy, and the estimate of shadows if it is not the plain one.
+fn name(settings: &Settings) -> String {
+    let strategy = settings.sampler.strategy();
+    match settings.shadows {
+        Shadows::Plain => strategy.to_string(),
+        shadows @ Shadows::Ratio => format!("{strategy} {shadows}"),
+    }
 }
 
 /// Those asked for, or all; the baseline is among them.
@@ -156,6 +175,7 @@ impl fmt::Display for Comparison {
         let mut table = table::new([
             "strategy",
             "precision",
+            "shadows",
             "passes",
             "s",
             "Msamples/s",
@@ -171,6 +191,7 @@ impl fmt::Display for Comparison {
             table.add_row([
                 row.run.strategy.to_owned(),
                 row.run.precision.to_owned(),
+                row.run.shadows.to_owned(),
                 row.run.passes.to_string(),
                 format!("{:.2}", row.run.seconds),
                 format!("{:.2}", row.run.msamples_per_s),
@@ -182,6 +203,9 @@ impl fmt::Display for Comparison {
             ]);
         }
         writeln!(f, "{}", table::text(&table))?;
-        writeln!(f, "\nefficiency: 1/(MSE time) relative to {BASELINE}; shadows and edges are part of the error")
+        writeln!(
+            f,
+            "\nefficiency: 1/(MSE time) relative to {BASELINE}, its first row; shadows and edges are part of the error"
+        )
     }
 }

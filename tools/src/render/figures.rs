@@ -2,7 +2,7 @@
 //! read.
 
 use super::exposure::Exposure;
-use airlight::Sampler;
+use airlight_tools::renderer::Settings;
 use serde::Serialize;
 use std::fmt;
 
@@ -25,6 +25,7 @@ pub(super) struct Job {
 pub(super) struct Run {
     pub(super) strategy: &'static str,
     pub(super) precision: &'static str,
+    pub(super) shadows: &'static str,
     pub(super) passes: u64,
     pub(super) samples: u64,
     pub(super) seconds: f64,
@@ -45,11 +46,12 @@ pub(super) struct Figures {
 }
 
 impl Run {
-    pub(super) fn new(sampler: &Sampler, exposure: &Exposure<'_>) -> Self {
+    pub(super) fn new(settings: &Settings, exposure: &Exposure<'_>) -> Self {
         let seconds = exposure.elapsed.as_secs_f64();
         Self {
-            strategy: sampler.strategy().name(),
-            precision: sampler.precision().name(),
+            strategy: settings.sampler.strategy().name(),
+            precision: settings.sampler.precision().name(),
+            shadows: settings.shadows.name(),
             passes: exposure.film.passes(),
             samples: exposure.samples(),
             seconds,
@@ -73,10 +75,13 @@ impl fmt::Display for Job {
 
 impl fmt::Display for Figures {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Run { strategy, precision, passes, samples, seconds, msamples_per_s, airlight_share } = &self.run;
+        let Run { strategy, precision, shadows, passes, samples, seconds, msamples_per_s, airlight_share } = &self.run;
         let [red, green, blue] = self.radiance;
         writeln!(f, "{}", self.job)?;
-        writeln!(f, "{strategy}, {precision}: {samples} samples in {passes} passes and {seconds:.2} s")?;
+        writeln!(
+            f,
+            "{strategy}, {precision}, shadows {shadows}: {samples} samples in {passes} passes and {seconds:.2} s"
+        )?;
         writeln!(f, "{msamples_per_s:.2} Msamples/s, {:.0} % of the time in airlight", 100.0 * airlight_share)?;
         writeln!(f, "mean radiance {red:.5e} {green:.5e} {blue:.5e}")
     }

@@ -9,7 +9,7 @@ const LETTER: usize = 8;
 const STRIP: usize = LETTER + 4;
 
 /// Lays out pictures of one size, row by row, as nearly as many rows as columns. Names are written in `ink`.
-pub(super) fn lay_out(pictures: &[(&str, Picture)], ink: f32) -> Picture {
+pub(super) fn lay_out(pictures: &[(String, Picture)], ink: f32) -> Picture {
     let columns = (pictures.len() as f64).sqrt().ceil() as usize;
     let cell = pictures.first().map_or(Size { width: 0, height: 0 }, |(_, picture)| picture.size);
     let rows = pictures.len().div_ceil(columns.max(1));

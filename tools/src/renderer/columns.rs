@@ -1,5 +1,6 @@
 //! Columns that a stage fills, each value by its place alone.
 
+use airlight::Medium;
 use glam::Vec3;
 use rayon::prelude::*;
 
@@ -65,6 +66,45 @@ impl Place<'_> {
     #[must_use]
     pub fn get(&self) -> Vec3 {
         Vec3::new(*self.x, *self.y, *self.z)
+    }
+}
+
+/// Values per channel, as airlight writes them: one column for all channels of a grey medium, else red, green and blue.
+#[derive(Clone, Debug, Default)]
+pub struct Tones([Vec<f32>; 3]);
+
+/// Columns to write to, as many as a medium has channels.
+#[derive(Debug)]
+pub enum Channels<'a> {
+    /// One for all.
+    Grey([&'a mut [f32]; 1]),
+    /// Red, green and blue.
+    Rgb([&'a mut [f32]; 3]),
+}
+
+impl Tones {
+    /// The places of `count` values in `medium`.
+    pub fn places(&mut self, medium: &Medium, count: usize) -> Channels<'_> {
+        let is_grey = medium.channels() == 1;
+        for (c, column) in self.0.iter_mut().enumerate() {
+            column.resize(if is_grey && c > 0 { 0 } else { count }, 0.0);
+        }
+        let [red, green, blue] = self.0.each_mut().map(Vec::as_mut_slice);
+        if is_grey { Channels::Grey([red]) } else { Channels::Rgb([red, green, blue]) }
+    }
+
+    /// Multiplies value number `i` by `factor(i)` in every channel.
+    pub fn scale(&mut self, factor: impl Fn(usize) -> f32) {
+        for column in &mut self.0 {
+            column.iter_mut().enumerate().for_each(|(i, value)| *value *= factor(i));
+        }
+    }
+
+    /// Value number `i`.
+    #[must_use]
+    pub fn at(&self, i: usize) -> Vec3 {
+        let [red, green, blue] = &self.0;
+        if green.is_empty() { Vec3::splat(red[i]) } else { Vec3::new(red[i], green[i], blue[i]) }
     }
 }
 

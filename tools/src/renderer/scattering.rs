@@ -2,6 +2,7 @@
 //! this library is for.
 
 use super::camera::RayQueue;
+use super::columns::{Channels, Tones};
 use super::emitter_choice::Choice;
 use super::scene::Scene;
 use super::shadow::{ShadowQueue, ShadowRay};
@@ -13,7 +14,7 @@ pub struct Scattering {
     samplers: Vec<Sampler>,
     t: Vec<f32>,
     pdf: Vec<f32>,
-    weight: Vec<f32>,
+    weight: Tones,
     other_pdf: Vec<f32>,
 }
 
@@ -24,7 +25,7 @@ impl Scattering {
         let transmittance = Sampler::new(Strategy::Transmittance);
         let transmittance = transmittance.with_precision(sampler.precision()).unwrap_or(transmittance);
         let samplers = [sampler].into_iter().chain(mis.then_some(transmittance)).collect();
-        Self { samplers, t: Vec::new(), pdf: Vec::new(), weight: Vec::new(), other_pdf: Vec::new() }
+        Self { samplers, t: Vec::new(), pdf: Vec::new(), weight: Tones::default(), other_pdf: Vec::new() }
     }
 
     /// The number of densities: each ray is sampled once with each.
@@ -46,17 +47,20 @@ impl Scattering {
         u: &[f32],
     ) -> Result<(), Error> {
         let Self { samplers, t, pdf, weight, other_pdf } = self;
-        for column in [&mut *t, pdf, weight, other_pdf] {
+        for column in [&mut *t, pdf, other_pdf] {
             column.resize(queue.len(), 0.0);
         }
         let (rays, emitters, media) = (queue.rays(), choice.emitters(), Media::one(scene.medium));
-        samplers[density].sample(&rays, &emitters, &media, u, &mut Samples::new(t, pdf).weight(weight))?;
+        let samples = Samples::new(t, pdf);
+        let mut samples = match weight.places(&scene.medium, queue.len()) {
+            Channels::Grey(weights) => samples.weights(weights),
+            Channels::Rgb(weights) => samples.weights(weights),
+        };
+        samplers[density].sample(&rays, &emitters, &media, u, &mut samples)?;
         if let [first, second] = &samplers[..] {
             let other = if density == 0 { second } else { first };
             other.pdf(&rays, &emitters, &media, t, other_pdf)?;
-            for ((weight, pdf), other) in weight.iter_mut().zip(pdf).zip(other_pdf) {
-                *weight *= balance(*pdf, *other);
-            }
+            weight.scale(|i| balance(pdf[i], other_pdf[i]));
         }
         Ok(())
     }
@@ -70,7 +74,7 @@ impl Scattering {
                 return ShadowRay::default();
             }
             let intensity = scene.lights[light as usize].intensity;
-            let radiance = intensity * (self.weight[i] / probability);
+            let radiance = intensity * (self.weight.at(i) / probability);
             ShadowRay { from: rays.point(i, self.t[i]), light, radiance }
         });
     }

@@ -1,7 +1,7 @@
 //! What is rendered: objects, lights, a medium that fills all of space, and a camera in it.
 
 use super::camera::Camera;
-use airlight::{Emitter, Medium};
+use airlight::{Cone, Emitter, Medium};
 use glam::Vec3;
 
 /// A scene.
@@ -9,7 +9,7 @@ use glam::Vec3;
 pub struct Scene {
     /// Who looks.
     pub camera: Camera,
-    /// The air.
+    /// The air: grey, or with coefficients for red, green and blue.
     pub medium: Medium,
     /// What is in it.
     pub objects: Vec<Object>,
@@ -24,7 +24,7 @@ pub struct Scene {
 pub struct Light {
     /// Where it is and where it turns.
     pub emitter: Emitter,
-    /// Radiant intensity along the normal, red, green and blue \[W/sr\].
+    /// Radiant intensity along the normal or axis, red, green and blue \[W/sr\].
     pub intensity: Vec3,
 }
 
@@ -63,6 +63,16 @@ pub enum Shape {
 }
 
 impl Scene {
+    /// The part of the light, red, green and blue, that a way of so many metres leaves.
+    #[must_use]
+    pub fn transmittance(&self, distance: f32) -> Vec3 {
+        let of = |medium: Medium| (-medium.mu_t() * distance).exp();
+        match [0, 1, 2].map(|c| self.medium.channel(c)) {
+            [Some(red), Some(green), Some(blue)] => Vec3::new(of(red), of(green), of(blue)),
+            _ => Vec3::splat(of(self.medium)),
+        }
+    }
+
     /// The same without shadows: every light reaches every point before it.
     #[must_use]
     pub fn without_occluders(mut self) -> Self {
@@ -80,8 +90,17 @@ impl Light {
         let to_light = Vec3::from(self.emitter.position()) - x;
         let r = to_light.length();
         let cosine = self.emitter.normal().map_or(1.0, |normal| (-Vec3::from(normal).dot(to_light) / r).max(0.0));
-        (to_light / r, r, self.intensity * cosine)
+        let falloff = self.emitter.cone().map_or(1.0, |cone| falloff(&cone, -to_light / r));
+        (to_light / r, r, self.intensity * cosine * falloff)
     }
+}
+
+/// The part of a spot's intensity that goes into a direction.
+fn falloff(cone: &Cone, direction: Vec3) -> f32 {
+    let (x, outer) = (Vec3::from(cone.axis()).normalize().dot(direction), cone.cos_outer());
+    let width = cone.cos_inner() - outer;
+    let s = if width > 0.0 { ((x - outer) / width).clamp(0.0, 1.0) } else { f32::from(u8::from(x >= outer)) };
+    s * s * (3.0 - 2.0 * s)
 }
 
 impl Shape {

@@ -4,6 +4,7 @@ mod dense;
 mod forward;
 mod many_lights;
 mod shaft;
+mod spots;
 
 use super::scene::{Light, Object, Scene, Shape};
 use airlight::{Emitter, Error};
@@ -25,11 +26,13 @@ pub enum Name {
     Forward,
     /// Lamps among spheres, in air that one can see a few metres through.
     Dense,
+    /// Two coloured spots through the holes of a ceiling, in tinted fog.
+    Spots,
 }
 
 impl Name {
     /// All of them.
-    pub const ALL: [Self; 4] = [Self::Shaft, Self::ManyLights, Self::Forward, Self::Dense];
+    pub const ALL: [Self; 5] = [Self::Shaft, Self::ManyLights, Self::Forward, Self::Dense, Self::Spots];
 
     /// Its name on the command line and in JSON.
     #[must_use]
@@ -39,6 +42,7 @@ impl Name {
             Self::ManyLights => "many-lights",
             Self::Forward => "forward",
             Self::Dense => "dense",
+            Self::Spots => "spots",
         }
     }
 
@@ -52,6 +56,7 @@ impl Name {
             Self::ManyLights => many_lights::scene(),
             Self::Forward => forward::scene(),
             Self::Dense => dense::scene(),
+            Self::Spots => spots::scene(),
         }
     }
 }

@@ -10,7 +10,7 @@ use std::f32::consts::FRAC_1_PI;
 /// Writes what surfaces emit towards the eye.
 pub fn emit(scene: &Scene, rays: &RayQueue, hits: &[u32], emitted: &mut Vectors) {
     emitted.fill(rays.len(), |i| match scene.objects.get(hits[i] as usize) {
-        Some(object) => object.emission * (-scene.medium.mu_t() * rays.t_max[i]).exp(),
+        Some(object) => object.emission * scene.transmittance(rays.t_max[i]),
         None => Vec3::ZERO,
     });
 }
@@ -57,6 +57,5 @@ fn added(scene: &Scene, object: &Object, (x, normal): (Vec3, Vec3), t: f32, ligh
     if cosine <= 0.0 || intensity == Vec3::ZERO {
         return Vec3::ZERO;
     }
-    let transmittance = (-scene.medium.mu_t() * (t + r)).exp();
-    object.albedo * intensity * (FRAC_1_PI * cosine * transmittance / (r * r))
+    object.albedo * intensity * (FRAC_1_PI * cosine * scene.transmittance(t + r) / (r * r))
 }

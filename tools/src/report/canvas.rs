@@ -167,9 +167,9 @@ impl Canvas<'_> {
         Ok(())
     }
 
-    /// A marker of what is none of ours.
-    pub(super) fn spot(&mut self, point: (f64, f64)) -> Result<()> {
-        let spot = Circle::new((0, 0), MARKER / 3, QUIET.rgb().filled());
+    /// A marker of what is no strategy.
+    pub(super) fn spot(&mut self, point: (f64, f64), colour: Colour) -> Result<()> {
+        let spot = Circle::new((0, 0), MARKER / 3, colour.rgb().filled());
         self.chart.draw_series(once(EmptyElement::at(self.place(point)) + spot)).map_err(failed)?;
         Ok(())
     }

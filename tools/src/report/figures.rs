@@ -4,6 +4,7 @@ mod accuracy;
 mod convergence;
 mod densities;
 mod efficiency;
+mod integral;
 mod throughput;
 
 use super::drawing::Drawing;
@@ -29,6 +30,7 @@ pub(super) fn all(findings: &Findings<'_>) -> Result<Vec<Figure>> {
         densities::figure()?,
         throughput::figure(findings)?,
         convergence::figure(findings)?,
+        integral::figure(findings)?,
     ])
 }
 

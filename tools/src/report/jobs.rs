@@ -2,7 +2,7 @@
 
 use super::Args;
 use crate::progress::Part;
-use crate::{accuracy, arguments, output, profile, sample, variance};
+use crate::{accuracy, arguments, integral, output, profile, sample, variance};
 use anyhow::Result;
 use indicatif::ProgressBar;
 
@@ -11,6 +11,8 @@ const TIME: usize = 60;
 const SAMPLE: usize = 60;
 const ERROR: usize = 4_300;
 const VARIANCE: usize = 220_000;
+const INTEGRAL: usize = 60_000_000;
+const RESAMPLING: usize = 160;
 
 /// A subcommand's arguments, and the line that they come from.
 struct Job<A> {
@@ -31,6 +33,7 @@ pub(super) struct Jobs {
     canonical: Job<variance::Args>,
     accuracy: Job<accuracy::Args>,
     sample: Job<sample::Args>,
+    integral: Job<integral::Args>,
 }
 
 /// What they found.
@@ -40,6 +43,9 @@ pub(super) struct Measured {
     pub(super) canonical: variance::Figures,
     pub(super) accuracy: accuracy::Figures,
     pub(super) sample: sample::Figures,
+    /// Of the same wavefront.
+    pub(super) resampled: sample::Resampled,
+    pub(super) integral: integral::Figures,
 }
 
 impl Jobs {
@@ -69,13 +75,15 @@ impl Jobs {
                 "accuracy",
                 &[&option("family", "generic")[..], &option("seed", "1"), &rays, &precisions].concat(),
             )?,
-            sample: Job::new("sample", &[samples, check, main_precision].concat())?,
+            sample: Job::new("sample", &[&samples[..], &check, &main_precision].concat())?,
+            integral: Job::new("integral", &[set("generic"), main_precision.to_vec()].concat())?,
         })
     }
 
     /// The command lines.
-    pub(super) fn commands(&self) -> [&str; 5] {
-        [&self.profile.line, &self.broad.line, &self.canonical.line, &self.accuracy.line, &self.sample.line]
+    pub(super) fn commands(&self) -> [&str; 6] {
+        let Self { profile, broad, canonical, accuracy, sample, integral } = self;
+        [&profile.line, &broad.line, &canonical.line, &accuracy.line, &sample.line, &integral.line]
     }
 
     /// The length of a bar for [`measure`](Self::measure).
@@ -86,6 +94,8 @@ impl Jobs {
             (variances, VARIANCE),
             (self.accuracy.args.steps()?, ERROR),
             (self.sample.args.steps()?, SAMPLE),
+            (self.sample.args.rays(), RESAMPLING),
+            (self.integral.args.steps(), INTEGRAL),
         ];
         Ok(parts.into_iter().fold(0, |sum, (steps, step)| sum.saturating_add(steps.saturating_mul(step))))
     }
@@ -98,19 +108,23 @@ impl Jobs {
             canonical: variance::measure(&self.canonical.args, part(VARIANCE))?,
             accuracy: accuracy::measure(&self.accuracy.args, part(ERROR))?,
             sample: sample::measure(&self.sample.args, part(SAMPLE))?.0,
+            resampled: sample::resample(&self.sample.args, part(RESAMPLING))?,
+            integral: integral::measure(&self.integral.args, part(INTEGRAL))?,
         })
     }
 }
 
 impl Measured {
     /// The JSON files, as `--json` of the subcommands writes them.
-    pub(super) fn files(&self) -> Result<[(&'static str, Vec<u8>); 5]> {
+    pub(super) fn files(&self) -> Result<[(&'static str, Vec<u8>); 7]> {
         Ok([
             ("profile.json", output::json(&self.profile)?),
             ("variance-broad.json", output::json(&self.broad)?),
             ("variance-canonical.json", output::json(&self.canonical)?),
             ("accuracy.json", output::json(&self.accuracy)?),
             ("sample.json", output::json(&self.sample)?),
+            ("resampling.json", output::json(&self.resampled)?),
+            ("integral.json", output::json(&self.integral)?),
         ])
     }
 }

@@ -1,7 +1,7 @@
 //! The figures as tables.
 
 use super::super::SHARED;
-use super::super::subject::{CALL, ONE, Subject, TOTAL};
+use super::super::subject::{CALL, CHOOSE, ONE, RADIANCE, Subject, TOTAL};
 use super::{Figures, Row};
 use crate::table;
 use comfy_table::Table;
@@ -33,6 +33,7 @@ impl fmt::Display for Figures {
         let title = format!("time of a call by its rays, 1 thread, {} [ns]", fastest.unwrap_or("-"));
         section(f, &title, &calls(&staged), OF_CALLS)?;
         section(f, "few rays, many variates: time of a sample [ns]", &many_variates(&staged), OF_MANY_VARIATES)?;
+        section(f, "the integral, 1 thread [ns]", &integrals(rows), OF_INTEGRALS)?;
         section(f, "errors of peers", &errors(rows), OF_ERRORS)?;
         self.comparisons(f)?;
         writeln!(f, "all figures are medians over the rounds")
@@ -48,6 +49,7 @@ const OF_STAGES: &str =
 total: t and pdf; weight: weight and r as well; 8 per ray: where 8 samples share a set-up";
 const OF_CALLS: &str = "a number: sample, of t and pdf, with so many rays; one: sample_one, of weight and r as well";
 const OF_MANY_VARIATES: &str = "rays x variates of each: t and pdf of one call";
+const OF_INTEGRALS: &str = "nodes: the integral of a ray; choose: of a ray and emitter, among 32 with 4 nodes";
 const OF_ERRORS: &str = "what 0.1 % of rays exceed in |CDF(t) - u|; ours is in airlight accuracy";
 const OF_PORTABLE: &str = "time with the portable backend over that with this one";
 const OF_THREADS: &str = "time with one thread over that with several, by samples of a batch";
@@ -234,6 +236,28 @@ fn stages(rows: &[&Row], backend: &str, rays: usize) -> Table {
         let together = of_kernel().find(together).and_then(|row| row.ns_per_sample);
         let names = [wanted.0, wanted.1].map(str::to_owned);
         table.add_row(names.into_iter().chain(stages.map(|stage| cell(time(stage)))).chain([cell(together)]));
+    }
+    table
+}
+
+/// The integral by nodes, and a choice by it.
+fn integrals(rows: &[Row]) -> Table {
+    let of_integral = || rows.iter().filter(|row| row.subject.nodes.is_some());
+    let nodes = distinct(of_integral().map(|row| row.subject.nodes));
+    let heads = nodes.iter().map(|nodes| format!("{nodes} nodes"));
+    let names = ["precision", "backend"].map(str::to_owned);
+    let mut table = table::new(names.into_iter().chain(heads).chain(["choose".to_owned()]));
+    let kernel = |row: &Row| Some((row.subject.precision?, row.subject.backend?));
+    for (precision, backend) in distinct(of_integral().map(kernel)) {
+        let of_kernel = || of_integral().filter(|row| kernel(row) == Some((precision, backend)));
+        let radiance = |nodes: &usize| {
+            let of_nodes = |row: &&Row| (row.subject.stage, row.subject.nodes) == (Some(RADIANCE), Some(*nodes));
+            cell(of_kernel().find(of_nodes).and_then(|row| row.ns_per_sample))
+        };
+        let choice = of_kernel().find(|row| row.subject.stage == Some(CHOOSE));
+        let choice = choice.and_then(|row| Some(row.ns_per_sample? / row.subject.emitters? as f64));
+        let names = [precision, backend].map(str::to_owned);
+        table.add_row(names.into_iter().chain(nodes.iter().map(radiance)).chain([cell(choice)]));
     }
     table
 }

@@ -40,7 +40,7 @@ pub(super) fn figure(findings: &Findings<'_>) -> Result<Figure> {
         }
         let point = |other: &Other| (other.ns_per_sample, other.cdf_p999);
         for other in &others {
-            canvas.spot(point(other))?;
+            canvas.spot(point(other), QUIET)?;
         }
         canvas.names(&others.iter().map(|other| (&*other.name, point(other))).collect::<Vec<_>>())?;
         canvas.legend(&names())

@@ -3,7 +3,7 @@
 use super::{Figure, names};
 use crate::report::canvas::{self, Line};
 use crate::report::findings::Findings;
-use crate::report::palette;
+use crate::report::palette::{self, QUIET};
 use crate::report::scale::{Scale, around, times};
 use airlight::Strategy;
 use anyhow::Result;
@@ -25,9 +25,13 @@ pub(super) fn figure(findings: &Findings<'_>) -> Result<Figure> {
     let errors: Vec<(Strategy, f64)> =
         Strategy::ALL.iter().filter_map(|&strategy| Some((strategy, after_one(strategy)?))).collect();
     let at = |error: f64, time: f64| error / time.sqrt();
-    let ends = errors.iter().flat_map(|&(_, error)| [at(error, TIME.0), at(error, TIME.1)]);
+    let resampled = &findings.measured.resampled;
+    let of_resampling = resampled.error_after_one_second();
+    let all = errors.iter().map(|&(_, error)| error).chain(of_resampling);
+    let ends = all.flat_map(|error| [at(error, TIME.0), at(error, TIME.1)]);
+    let (lowest, highest) = around(ends, 1.5);
     let x = Scale::decades("time in the sampler [s]", TIME);
-    let y = Scale::decades("relative error of the radiance", around(ends, 1.5));
+    let y = Scale::decades("relative error of the radiance", (lowest, highest));
     let drawing = canvas::draw("figure-5", "Error of the radiance against time", (400, 5), (x, y), |canvas| {
         for &(strategy, error) in &errors {
             let line = [TIME.0, TIME.1].map(|time| (time, at(error, time)));
@@ -35,6 +39,11 @@ pub(super) fn figure(findings: &Findings<'_>) -> Result<Figure> {
             for time in MARKED {
                 canvas.marker(strategy, (time, at(error, time)))?;
             }
+        }
+        if let Some(error) = of_resampling {
+            let line = [TIME.0, TIME.1].map(|time| (time, at(error, time)));
+            canvas.line(line.into_iter(), QUIET, Line::Dashed)?;
+            canvas.say(&format!("dashed: {}", resampled.name()), (0.9 * TIME.1, 0.5 * highest))?;
         }
         canvas.legend(&names())
     })?;
@@ -48,8 +57,13 @@ pub(super) fn figure(findings: &Findings<'_>) -> Result<Figure> {
         title: "Error of the radiance against time",
         caption: format!(
             "{told}Root-mean-square error of the mean radiance of the wavefront {}, {} threads; lines of slope -1/2 from \
-             the standard errors and times of {} samples each, in {} precision.",
-            sample.wavefront, sample.threads, sample.rays, findings.precision
+             the standard errors and times of {} samples each, in {} precision. Dashed is the {}, one of which is chosen in \
+             proportion to f/p.",
+            sample.wavefront,
+            sample.threads,
+            sample.rays,
+            findings.precision,
+            resampled.name()
         ),
         drawings: vec![drawing],
     })
