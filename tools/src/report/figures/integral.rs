@@ -12,8 +12,8 @@ use anyhow::Result;
 const RULES: [(&str, &str); 4] = [
     ("airlight", "airlight"),
     ("gauss-in-angle", "Gauss in the angle"),
-    ("steps-in-angle", "equal steps in the angle"),
-    ("steps-in-t", "equal steps in t"),
+    ("steps-in-angle", "steps in angle"),
+    ("steps-in-t", "steps in t"),
 ];
 
 /// Time of a ray, median and 99th percentile of the error, and a name.
