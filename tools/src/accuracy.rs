@@ -19,6 +19,9 @@ const BROKEN: u8 = 1;
 
 /// Compare the kernels with the f64 oracle on families of hard inputs; exit with 1 if a promised bound is broken
 #[derive(Debug, clap::Args)]
+#[command(
+    after_help = "Examples:\n  airlight accuracy --family generic --rays 1048576\n  airlight accuracy --strategy product-5 --precision exact"
+)]
 pub(crate) struct Args {
     /// Rays per strategy and family
     #[arg(long, value_name = "RAYS", default_value = "65536", value_parser = arguments::positive)]

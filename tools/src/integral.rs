@@ -30,6 +30,7 @@ const SCALAR_RAYS: usize = 1 << 12;
 
 /// Compare the integral of the airlight with quadrature, and its time with that of plain rules, on sets of scenes
 #[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:\n  airlight integral --set generic --scenes 8000")]
 pub(crate) struct Args {
     /// Scenes: generic, broad, dense, tame, spot, colour, colour-strong or canonical, may be repeated [default: generic, broad, dense]
     #[arg(long, value_name = "NAME", value_parser = set)]

@@ -46,6 +46,9 @@ const EMITTERS: usize = 32;
 
 /// Measure how fast every kernel is, its stages apart, beside what the machine allows
 #[derive(Debug, clap::Args)]
+#[command(
+    after_help = "Examples:\n  airlight profile --quick\n  airlight profile --rays 65536 --threads 1 --backend avx2"
+)]
 pub(crate) struct Args {
     /// Rays of a batch, may be repeated [default: 4096, 65536, 1048576, 16777216]
     #[arg(long, value_name = "RAYS", value_parser = arguments::batch)]

@@ -32,6 +32,9 @@ const PASSES: usize = 64;
 
 /// Render a scene of spheres and planes in fog; or compare the strategies on it
 #[derive(Debug, clap::Args)]
+#[command(
+    after_help = "Examples:\n  airlight render --out fog.png                      one picture\n  airlight render --scene spots --spp 256 --out spots.exr\n  airlight render --compare --time 3                 every strategy, for three seconds each"
+)]
 pub(crate) struct Args {
     /// Scene: shaft, many-lights, forward, dense or spots
     #[arg(long, value_name = "NAME", default_value_t = Name::Shaft)]

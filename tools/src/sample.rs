@@ -20,6 +20,9 @@ use std::time::{Duration, Instant};
 
 /// Sample a wavefront with each strategy; report throughput, radiance and agreement with quadrature
 #[derive(Debug, clap::Args)]
+#[command(
+    after_help = "Examples:\n  airlight sample                                    the built-in wavefront, every strategy\n  airlight sample queue.npz --medium 0.1,0.3,0.6     your own rays, in your own medium\n  airlight sample --strategy product-5 --json -      figures as JSON, on standard output"
+)]
 pub(crate) struct Args {
     /// Wavefront to sample; with the columns cos_outer and cos_inner its emitters are spots, whose axes are the normals, but
     /// for those where both are -1 [default: the built-in Cornell box in fog]

@@ -21,6 +21,9 @@ const CLIMBS: usize = 256;
 
 /// Compare the relative variances of all densities, by quadrature, on a set of scenes
 #[derive(Debug, clap::Args)]
+#[command(
+    after_help = "Examples:\n  airlight variance --set broad\n  airlight variance --set colour --strategy product-5"
+)]
 pub(crate) struct Args {
     /// Scenes: broad, generic, dense, tame, spot, colour, colour-strong, canonical, or the rays of a wavefront
     #[arg(long, value_name = "NAME|FILE.npz", default_value = "broad", conflicts_with = "adversarial")]
