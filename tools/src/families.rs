@@ -511,6 +511,12 @@ impl Columns {
         self.normal.each_ref().map(Vec::as_slice)
     }
 
+    /// The cosines of their cones, if there are spots.
+    #[must_use]
+    pub fn cones(&self) -> Option<[&[f32]; 2]> {
+        self.cones.as_ref().map(|cones| cones.each_ref().map(Vec::as_slice))
+    }
+
     /// Their media.
     #[must_use]
     pub fn media(&self) -> Media<'_> {
