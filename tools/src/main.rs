@@ -13,6 +13,7 @@ mod progress;
 mod render;
 mod report;
 mod sample;
+mod soak;
 mod strata;
 mod table;
 mod validity;
@@ -45,6 +46,7 @@ enum Command {
     Integral(integral::Args),
     Profile(profile::Args),
     Report(report::Args),
+    Soak(soak::Args),
 }
 
 fn main() -> ExitCode {
@@ -66,6 +68,7 @@ fn main() -> ExitCode {
         Command::Integral(args) => integral::run(&args).map(|()| ExitCode::SUCCESS),
         Command::Profile(args) => profile::run(&args).map(|()| ExitCode::SUCCESS),
         Command::Report(args) => report::run(&args).map(|()| ExitCode::SUCCESS),
+        Command::Soak(args) => soak::run(&args),
     };
     match done {
         Ok(code) => code,
