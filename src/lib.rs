@@ -126,8 +126,9 @@
 //!
 //! Equal inputs give equal bits, whatever the number of threads, the length of the batch or the place in it. Between
 //! machines this holds where the instruction sets round alike: x86-64 with fused multiply-add and AArch64 give equal bits
-//! ([`Backend::is_fused`]), and those without it among themselves. All of it is said of
-//! the default [floating-point environment](Sampler#floating-point-environment), which flushes nothing to zero.
+//! ([`Backend::is_fused`]), and those without it among themselves: x86-64 on SSE2 and wasm32, with simd128 or not. All of
+//! it is said of the default [floating-point environment](Sampler#floating-point-environment), which flushes nothing to
+//! zero.
 
 mod batch;
 mod density;
