@@ -128,8 +128,9 @@
 //!
 //! Equal inputs give equal bits, whatever the number of threads, the length of the batch or the place in it. This also holds
 //! between machines whose instruction sets round alike: x86-64 with fused multiply-add and AArch64 give equal bits
-//! ([`Backend::is_fused`]), and so do those without it among themselves. It holds in the default
-//! [floating-point environment](Sampler#floating-point-environment), which does not flush subnormal numbers to zero.
+//! ([`Backend::is_fused`]), and so do those without it among themselves: x86-64 on SSE2, and wasm32 with or without simd128.
+//! It holds in the default [floating-point environment](Sampler#floating-point-environment), which does not flush subnormal
+//! numbers to zero.
 
 mod batch;
 mod density;

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// Where the figures go beside the table.
-#[derive(Debug, clap::Args)]
+#[derive(Debug, Default, clap::Args)]
 pub(crate) struct Json {
     /// Write the figures as JSON, to standard output instead of the table if FILE is '-'
     #[arg(long, value_name = "FILE")]
@@ -131,6 +131,16 @@ pub(crate) fn backend(name: &str) -> Result<Backend, String> {
 
 /// Reads a number of seconds.
 pub(crate) fn seconds(text: &str) -> Result<Duration, String> {
-    let read = text.parse().ok().and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
-    read.filter(|time| !time.is_zero()).ok_or_else(|| "expected a number of seconds greater than 0".to_owned())
+    time(text, 1.0).ok_or_else(|| "expected a number of seconds greater than 0".to_owned())
+}
+
+/// Reads a number of minutes.
+pub(crate) fn minutes(text: &str) -> Result<Duration, String> {
+    time(text, 60.0).ok_or_else(|| "expected a number of minutes greater than 0".to_owned())
+}
+
+/// A time in units of so many seconds.
+fn time(text: &str, unit: f64) -> Option<Duration> {
+    let number: f64 = text.parse().ok()?;
+    Duration::try_from_secs_f64(number * unit).ok().filter(|time| !time.is_zero())
 }

@@ -597,6 +597,12 @@ impl Columns {
         self.normal.each_ref().map(Vec::as_slice)
     }
 
+    /// The cosines of their cones, if there are spots.
+    #[must_use]
+    pub fn cones(&self) -> Option<[&[f32]; 2]> {
+        self.cones.as_ref().map(|cones| cones.each_ref().map(Vec::as_slice))
+    }
+
     /// Their media; of coloured ones the channels that are looked at.
     #[must_use]
     pub fn media(&self) -> Media<'_> {

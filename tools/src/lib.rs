@@ -4,12 +4,14 @@
 
 pub mod adversary;
 pub mod backends;
+pub mod batch;
 pub mod bounds;
 pub mod column;
 pub mod contender;
 mod draw;
 pub mod errors;
 pub mod families;
+pub mod promises;
 pub mod renderer;
 pub mod samplers;
 pub mod scenes;

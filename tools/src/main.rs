@@ -14,6 +14,7 @@ mod progress;
 mod render;
 mod report;
 mod sample;
+mod soak;
 mod strata;
 mod table;
 mod validity;
@@ -45,13 +46,13 @@ struct Cli {
 const EXIT_CODES: &str = "\
 Exit codes:
   0  done
-  1  a bound is broken (accuracy)
+  1  a promise is broken (accuracy, soak)
   2  anything else that fails; one line on standard error says what";
 
 /// Subcommands by what they are for, as help lists them.
 const GROUPS: [(&str, &[&str]); 2] = [
     ("Use", &["sample", "render", "completions"]),
-    ("Measure", &["accuracy", "variance", "integral", "profile", "report"]),
+    ("Measure", &["accuracy", "variance", "integral", "profile", "report", "soak"]),
 ];
 
 #[derive(Debug, Subcommand)]
@@ -63,6 +64,7 @@ enum Command {
     Integral(integral::Args),
     Profile(profile::Args),
     Report(report::Args),
+    Soak(soak::Args),
     Completions(completions::Args),
 }
 
@@ -89,6 +91,7 @@ fn main() -> ExitCode {
             completions::run(&args, &mut cli());
             Ok(ExitCode::SUCCESS)
         }
+        Command::Soak(args) => soak::run(&args),
     };
     match done {
         Ok(code) => code,

@@ -45,7 +45,8 @@ impl Wavefront {
         Self::decode(name.clone(), CORNELL).context(name)
     }
 
-    fn decode(name: String, file: &[u8]) -> Result<Self> {
+    /// The wavefront that is held in `file`.
+    pub(crate) fn decode(name: String, file: &[u8]) -> Result<Self> {
         let mut archive = Archive::open(file)?;
         let wavefront = Self {
             name,

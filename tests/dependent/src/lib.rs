@@ -1,6 +1,6 @@
 //! Everything that can be asked of airlight, on little stack.
 
-use airlight::{Emitter, Emitters, Integral, Media, Medium, Nodes, Ray, Rays, Sampler, Samples, Strategy};
+use airlight::{Emitter, Emitters, Integral, Media, Medium, Nodes, Ray, Rays, Sampler, Samples};
 
 /// The README's example is a test of the documentation.
 #[doc = include_str!("../../../README.md")]
@@ -148,6 +148,7 @@ pub fn one(sampler: &Sampler) -> Result<[f32; 6], airlight::Error> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use airlight::Strategy;
 
     /// Threads of tests have a quarter of the main thread's stack.
     #[test]

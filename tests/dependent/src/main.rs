@@ -3,13 +3,9 @@
 
 use airlight::{Backend, Precision, Sampler, Strategy};
 use dependent::{Columns, everything};
-use std::thread;
+use std::error::Error;
 
-/// A thirty-second of what a main thread usually has.
-const STACK: usize = 256 << 10;
-
-fn main() -> Result<(), Box<dyn std::error::Error>> {
-    rayon::ThreadPoolBuilder::new().num_threads(2).stack_size(STACK).build_global()?;
+fn main() -> Result<(), Box<dyn Error>> {
     let columns = &Columns::new();
     for backend in Backend::available() {
         let samplers = Strategy::ALL.iter().flat_map(|&strategy| {
@@ -17,13 +13,23 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             Precision::ALL.iter().filter_map(move |&precision| sampler.with_precision(precision).ok())
         });
         for sampler in samplers {
-            let hash = thread::scope(|scope| {
-                let work = move || everything(columns, &sampler);
-                let thread = thread::Builder::new().stack_size(STACK).spawn_scoped(scope, work)?;
-                Ok::<_, std::io::Error>(thread.join().expect("no panic"))
-            })??;
+            let hash = on_little_stack(|| everything(columns, &sampler))??;
             println!("{} {} {} {hash:016x}", backend.name(), sampler.strategy(), sampler.precision());
         }
     }
     Ok(())
+}
+
+#[cfg(not(target_family = "wasm"))]
+fn on_little_stack<R: Send>(work: impl FnOnce() -> R + Send) -> Result<R, Box<dyn Error>> {
+    /// A thirty-second of what a main thread usually has.
+    const STACK: usize = 256 << 10;
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(2).stack_size(STACK).build()?;
+    Ok(pool.install(work))
+}
+
+/// There are no threads: a batch stays on the only one.
+#[cfg(target_family = "wasm")]
+fn on_little_stack<R>(work: impl FnOnce() -> R) -> Result<R, Box<dyn Error>> {
+    Ok(work())
 }
