@@ -13,7 +13,7 @@ mod source;
 
 pub use counts::Counts;
 pub use emitters::Emitters;
-pub(crate) use emitters::{ConeRows, EmitterRows};
+pub(crate) use emitters::{ConePlace, ConeRows, EmitterPlace, EmitterRows};
 pub(crate) use inputs::Inputs;
 pub use media::Media;
 pub(crate) use media::{ChannelGroups, MediaPlace, MediaRows, MediumGroups, MediumRows};
@@ -24,12 +24,12 @@ pub use rays::Rays;
 pub(crate) use runs::{Run, Turn};
 pub(crate) use samples::OfSamples;
 pub use samples::Samples;
-pub(crate) use source::{Gathered, Rows};
+pub(crate) use source::Rows;
 
-use crate::simd::Isa;
+use crate::simd::{Isa, MOST_LANES};
 
 /// The largest number of rays of a block.
-pub(crate) const MOST_RAYS: usize = 256;
+pub(crate) const MOST_RAYS: usize = if cfg!(optimized) { 256 } else { 2 * MOST_LANES };
 
 /// The first `count` groups of a column.
 #[cfg_attr(optimized, inline(always))]

@@ -259,12 +259,30 @@ fn shares_at_the_ends_of_f32_have_probabilities() {
 }
 
 #[test]
+fn a_coloured_medium_chooses_as_its_mean_does() {
+    const N: usize = 40;
+    let columns = Columns::random(&mut Random::new(2), N);
+    let rays = columns.rays(0..N);
+    let coloured = Medium::coloured([0.1, 0.2, 0.0], [0.2, 0.3, 0.9], 0.3).unwrap();
+    let table = [Emitter::point([0.0; 3]).unwrap(), Emitter::point([1.0, 2.0, 3.0]).unwrap()];
+    let [of_colour, of_mean] = [coloured, coloured.mean()].map(|medium| {
+        let (mut index, mut probability) = (vec![7; N], vec![7.0; N]);
+        let (integral, media) = (Integral::new(Nodes::Four), Media::one(medium));
+        integral.choose(&rays, &table, &[1.0, 2.0], &media, &[0.4; N], &mut index, &mut probability).unwrap();
+        (index, probability)
+    });
+    assert_eq!(of_colour, of_mean);
+    assert!(of_mean.0.contains(&0) && of_mean.0.contains(&1));
+}
+
+#[test]
 fn malformed_calls_are_refused_by_name() {
     const N: usize = 5;
     let columns = Columns::random(&mut Random::new(1), N);
     let (rays, media) = (columns.rays(0..N), columns.media(0..N));
     let lamp = Emitter::point([0.0; 3]).unwrap();
-    let coloured = Media::one(Medium::coloured([0.1; 3], [0.2, 0.3, 0.4], 0.0).unwrap());
+    let coloured = Medium::coloured([0.1; 3], [0.2, 0.3, 0.4], 0.0).unwrap();
+    let mixed = [coloured.mean(), coloured];
     let choose = |rays: &Rays<'_>, table: &[Emitter], weights: &[f32], media: &Media<'_>, n: [usize; 3]| {
         let (mut index, mut probability) = (vec![7; n[1]], vec![7.0; n[2]]);
         let u = vec![0.5; n[0]];
@@ -289,7 +307,9 @@ fn malformed_calls_are_refused_by_name() {
     assert_eq!(of([2 * N, N, N]), "u has 10 elements, expected 5");
     assert_eq!(of([N, N + 1, N]), "index has 6 elements, expected 5");
     assert_eq!(of([N, N, 0]), "probability has 0 elements, expected 5");
-    assert_eq!(choose(&rays, &[lamp], &[1.0], &coloured, [N; 3]), "there are no kernels for coloured media");
+    let of_rays = Media::table(&mixed, &[0; N]);
+    let refused = "media.table[0] has 1 channel, expected 3";
+    assert_eq!(choose(&rays, &[lamp], &[1.0], &of_rays, [N; 3]), refused);
     let short = columns.rays(0..N - 1);
     assert_eq!(choose(&short, &[lamp], &[1.0], &media, [N; 3]), "media.mu_a has 5 elements, expected 4");
     let weight = Integral::new(Nodes::Four).choose(&rays, &[lamp], &[-1.0], &media, &[], &mut [], &mut []);

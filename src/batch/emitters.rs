@@ -1,6 +1,6 @@
 //! The emitter of each ray.
 
-use super::source::{Entry, RowGroups, Rows, Source};
+use super::source::{Entry, Gathered, RowGroups, Rows, Source};
 use crate::Error;
 use crate::geometry::{EmitterLanes, SpotLanes};
 use crate::scene::Emitter;
@@ -105,6 +105,11 @@ pub(super) const CONE_COLUMNS: usize = 2;
 pub(crate) type EmitterRows<'r> = Rows<'r, COLUMNS>;
 /// The cones of some rays.
 pub(crate) type ConeRows<'r> = Rows<'r, CONE_COLUMNS>;
+
+/// Storage for the emitters of a block.
+pub(crate) type EmitterPlace = Gathered<COLUMNS>;
+/// Storage for their cones.
+pub(crate) type ConePlace = Gathered<CONE_COLUMNS>;
 
 impl Entry<COLUMNS> for Emitter {
     const COLUMNS: [&'static str; COLUMNS] = [

@@ -1,6 +1,6 @@
 //! The medium of each ray.
 
-use super::source::{Entry, Gathered, RowGroups, Rows, Source};
+use super::source::{Entry, Gathered, RowGroups, Rows, Source, row_of};
 use crate::Error;
 use crate::integrand::{ChannelLanes, MediumLanes};
 use crate::scene::{Colour, MOST_CHANNELS, Medium};
@@ -135,13 +135,21 @@ impl<'a> Media<'a> {
         'a: 'r,
     {
         match &self.0 {
-            Kind::Grey(source) => MediaRows { means: source.rows(range, &mut place.grey), channels: None },
+            Kind::Grey(source) => MediaRows { means: source.rows(range, place), channels: None },
             Kind::Coloured { source, channels } => {
-                let rows = source.rows(range, &mut place.given).with_means(*channels, &mut place.with_means);
-                MediaRows {
-                    means: rows.select([MEAN_A, MEAN_S, G]),
-                    channels: Some(ChannelRows { rows, count: *channels }),
-                }
+                let (rays, count) = (range.len(), *channels);
+                let rows = match source {
+                    Source::One(medium) => Rows::One(with_means(&medium.row(), count)),
+                    Source::Each(columns) => {
+                        let row = |ray: usize| columns.map(|column| column[range.start + ray]);
+                        Rows::Each(place.fill(rays, |ray| with_means(&row(ray), count)))
+                    }
+                    Source::Table { table, index } => {
+                        let row = |ray: usize| row_of(table, index[range.start + ray]);
+                        Rows::Each(place.fill(rays, |ray| with_means(&row(ray), count)))
+                    }
+                };
+                MediaRows { means: rows.select([MEAN_A, MEAN_S, G]), channels: Some(ChannelRows { rows, count }) }
             }
         }
     }
@@ -159,32 +167,9 @@ const MEAN_A: usize = CHANNEL_COLUMNS;
 const MEAN_S: usize = CHANNEL_COLUMNS + 1;
 
 /// Storage for the media of a block.
-pub(crate) struct MediaPlace {
-    grey: Gathered<COLUMNS>,
-    given: Gathered<CHANNEL_COLUMNS>,
-    with_means: Gathered<WITH_MEANS>,
-}
+pub(crate) type MediaPlace = Gathered<WITH_MEANS>;
 
-impl MediaPlace {
-    /// Empty storage.
-    pub(crate) fn new() -> Self {
-        Self { grey: Gathered::new(), given: Gathered::new(), with_means: Gathered::new() }
-    }
-}
-
-impl<'r> Rows<'r, CHANNEL_COLUMNS> {
-    /// The rows with the means; all values are NaN where one of them is not valid.
-    fn with_means<'p>(&self, channels: usize, place: &'p mut Gathered<WITH_MEANS>) -> Rows<'p, WITH_MEANS> {
-        match self {
-            Self::One(row) => Rows::One(with_means(row, channels)),
-            Self::Each(columns) => {
-                let row = |ray: usize| with_means(&columns.map(|column| column[ray]), channels);
-                Rows::Each(place.fill(columns[0].len(), row))
-            }
-        }
-    }
-}
-
+/// The numbers with the means; all are NaN where one of them is not valid.
 fn with_means(row: &[f32; CHANNEL_COLUMNS], channels: usize) -> [f32; WITH_MEANS] {
     let [a0, a1, a2, a3, s0, s1, s2, s3, g] = *row;
     let (mu_a, mu_s) = ([a0, a1, a2, a3], [s0, s1, s2, s3]);

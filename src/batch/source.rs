@@ -56,7 +56,7 @@ impl<'a, T: Entry<K>, const K: usize> Source<'a, T, K> {
     }
 
     /// The rows of the rays of `range`, at most [`MOST_RAYS`]; entries of a table are gathered in `place`.
-    pub(crate) fn rows<'r>(&self, range: Range<usize>, place: &'r mut Gathered<K>) -> Rows<'r, K>
+    pub(crate) fn rows<'r, const MOST: usize>(&self, range: Range<usize>, place: &'r mut Gathered<MOST>) -> Rows<'r, K>
     where
         'a: 'r,
     {
@@ -68,7 +68,12 @@ impl<'a, T: Entry<K>, const K: usize> Source<'a, T, K> {
     }
 }
 
-/// Storage for the columns of some rays.
+/// The numbers of `table[index]`; NaN for an index out of range.
+pub(super) fn row_of<T: Entry<K>, const K: usize>(table: &[T], index: u32) -> [f32; K] {
+    table.get(index as usize).map_or([f32::NAN; K], T::row)
+}
+
+/// Storage for at most `K` columns of some rays.
 pub(crate) struct Gathered<const K: usize>(Option<[[f32; MOST_RAYS]; K]>);
 
 impl<const K: usize> Gathered<K> {
@@ -77,14 +82,15 @@ impl<const K: usize> Gathered<K> {
         Self(None)
     }
 
-    /// The entries `table[index]` as columns; NaN for an index out of range.
-    fn gather<T: Entry<K>>(&mut self, table: &[T], index: &[u32]) -> [&[f32]; K] {
-        self.fill(index.len(), |ray| table.get(index[ray] as usize).map_or([f32::NAN; K], T::row))
+    /// The entries `table[index]` as columns.
+    fn gather<T: Entry<J>, const J: usize>(&mut self, table: &[T], index: &[u32]) -> [&[f32]; J] {
+        self.fill(index.len(), |ray| row_of(table, index[ray]))
     }
 
     /// A row for each of `rays` rays, as columns.
     #[inline]
-    pub(super) fn fill(&mut self, rays: usize, row: impl Fn(usize) -> [f32; K]) -> [&[f32]; K] {
+    pub(super) fn fill<const J: usize>(&mut self, rays: usize, row: impl Fn(usize) -> [f32; J]) -> [&[f32]; J] {
+        const { assert!(J <= K) };
         let columns = match &mut self.0 {
             Some(columns) => columns,
             none => none.insert([[0.0; MOST_RAYS]; K]),
@@ -94,7 +100,7 @@ impl<const K: usize> Gathered<K> {
                 column[ray] = value;
             }
         }
-        columns.each_ref().map(|column| &column[..rays])
+        std::array::from_fn(|k| &columns[k][..rays])
     }
 }
 

@@ -8,7 +8,8 @@
 
 use crate::Precision;
 use crate::batch::{
-    ChannelGroups, ConeRows, Counts, EmitterRows, Gathered, Inputs, MOST_RAYS, MediaPlace, MediaRows, Run, Turn,
+    ChannelGroups, ConePlace, ConeRows, Counts, EmitterPlace, EmitterRows, Inputs, MOST_RAYS, MediaPlace, MediaRows,
+    Run, Turn,
 };
 use crate::density::{Density, Kind, SetUp};
 use crate::geometry::{Cone, Cosine, Extent, Foot, Geometry, Lit, clip, find_foot, in_cone, in_f64, pick};
@@ -135,7 +136,10 @@ pub(super) fn for_each_block<I: Isa>(
         (Extent::Cosine, Precision::Exact) if each => in_single::<I, true, true, true, true>,
         (Extent::Cosine, Precision::Exact) => in_single::<I, true, true, true, false>,
     };
-    let (mut emitters, mut cones, mut media) = (Gathered::new(), Gathered::new(), MediaPlace::new());
+    // Apart: an unoptimised build has a tuple of them on the stack twice.
+    let mut emitters = EmitterPlace::new();
+    let mut cones = ConePlace::new();
+    let mut media = MediaPlace::new();
     for start in (0..count).step_by(at_once) {
         let groups = start..count.min(start + at_once);
         let rays = groups.start * I::V::N..groups.end * I::V::N;
@@ -176,8 +180,13 @@ struct Places<I: Isa> {
 impl<I: Isa> Places<I> {
     #[cfg_attr(optimized, inline(always))]
     fn new() -> Self {
-        let (lits, excesses, cosines) = (Records::new(), Records::new(), Records::new());
-        Self { lits, excesses, cosines, feet: Records::new(), cones: Records::new() }
+        Self {
+            lits: Records::new(),
+            excesses: Records::new(),
+            cosines: Records::new(),
+            feet: Records::new(),
+            cones: Records::new(),
+        }
     }
 }
 

@@ -40,7 +40,10 @@ impl<const WITH_WEIGHT_OR_R: bool> Task for Drawing<WITH_WEIGHT_OR_R> {
 impl<const WITH_WEIGHT_OR_R: bool> OfDensity for Drawing<WITH_WEIGHT_OR_R> {
     fn groups<I: Isa, D: Kind>(isa: I, precision: Precision, inputs: &Inputs<'_>, mut out: Out<'_, Self>) -> Counts {
         let mut tally = Tally::new(isa, inputs);
-        let (mut set_ups, mut places, mut points) = (SetUps::<I, D>::new(), Records::new(), Records::new());
+        // Apart: an unoptimised build has a tuple of them on the stack twice.
+        let mut set_ups = SetUps::<I, D>::new();
+        let mut places = Records::new();
+        let mut points = Records::new();
         let mut pad = None;
         // Spots and colours take the separate passes, so that their set-up is compiled once.
         let once = inputs.per_ray == 1 && inputs.are_plain();
