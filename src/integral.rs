@@ -235,7 +235,8 @@ impl Integral {
         inputs.check("u", u)?;
         Error::unless_length("index", index.len(), inputs.len())?;
         inputs.check("probability", probability)?;
-        let lights = Lights { quadrature: self.quadrature(), table, weights };
+        let has_spots = Emitters::have_spots(table);
+        let lights = Lights { quadrature: self.quadrature(), table, weights, has_spots };
         let inputs = inputs.with(u, "u")?;
         Ok(road::travel::<road::Choose<'_>>(self.threads, self.backend, lights, &inputs, (index, probability)))
     }

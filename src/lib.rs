@@ -97,12 +97,6 @@
 //! let rays = Rays { origin: [&zero; 3], direction: [&zero; 3], t_min: &zero, t_max: &zero };
 //! ```
 //!
-//! ```compile_fail,E0639
-//! # use airlight::Samples;
-//! let (mut t, mut pdf) = ([0.0], [0.0]);
-//! let samples = Samples { t: &mut t, pdf: &mut pdf, weight: None, r: None };
-//! ```
-//!
 //! ```compile_fail,E0004
 //! # use airlight::Threads;
 //! # let threads = Threads::Pool;

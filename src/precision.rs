@@ -33,7 +33,8 @@ use std::str::FromStr;
 /// # Arithmetic
 /// Both precisions compute the geometry of a ray in f64 where f32 is not enough for them: `Fast` where the ray's line passes the
 /// emitter at less than 2^-14 of its distance, and for unusual directions, normals and coordinates; `Exact` also where an end of
-/// the ray is next to the emitter's plane. Without fused multiply-add both do so for all rays, and are the same.
+/// the ray is next to the emitter's plane. Both compute spots in f64. Without fused multiply-add both do
+/// so for all rays, and are the same.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Precision {

@@ -31,7 +31,8 @@ use core::marker::PhantomData;
 use core::ops::Range;
 use core::slice::from_ref;
 
-/// The number of values of a chunk: up to 22 columns of this length are 352 KiB, which stay in a core's cache.
+/// The number of values of a chunk: 22 columns of grey media and no spots are 352 KiB, which stay in a
+/// core's cache; with spots and four channels 33 columns are 528 KiB.
 const CHUNK: usize = 4096;
 /// A ray with at least this number of values is a chunk of its own. Its values fill the lanes, and it costs the set-up of a whole
 /// lane group: with 32 lanes, one set-up for 32 samples.

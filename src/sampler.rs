@@ -2,7 +2,7 @@
 
 use crate::batch::{Counts, Emitters, Inputs, Media, Rays, Samples, columns};
 use crate::road::Method;
-use crate::scene::{Emitter, Medium, Ray};
+use crate::scene::{Emitter, MOST_CHANNELS, Medium, Ray};
 use crate::simd::Backend;
 use crate::{Error, Precision, Strategy, Threads, road};
 use core::slice::from_mut;
@@ -168,10 +168,14 @@ impl Sampler {
         let inputs = Inputs::new(rays, emitters, media)?.with(u, "u")?;
         inputs.check_given("samples.t", samples.t)?;
         inputs.check_given("samples.pdf", samples.pdf)?;
-        if samples.channels() > 0 {
-            inputs.check_channels("samples.weights", samples.channels())?;
+        match samples.channels() {
+            Some(0) => {}
+            channels => inputs.check_channels("samples.weights", channels.unwrap_or(0))?,
         }
-        samples.weights.iter().flatten().try_for_each(|weight| inputs.check_given("samples.weights", weight))?;
+        const WEIGHTS: [&str; MOST_CHANNELS] =
+            ["samples.weights[0]", "samples.weights[1]", "samples.weights[2]", "samples.weights[3]"];
+        let mut weights = WEIGHTS.into_iter().zip(samples.weights.iter().flatten());
+        weights.try_for_each(|(field, weight)| inputs.check_given(field, weight))?;
         if let Some(r) = &samples.r {
             inputs.check_given("samples.r", r)?;
         }
@@ -232,7 +236,7 @@ impl Sampler {
     /// |---|---|---|---|
     /// | [`Precision::Exact`] | 2^-20 at most | all families | `tests/hard_cases.rs`, `tests/cdf.rs` |
     /// | [`Precision::Fast`] | 8e-6 for 99.9 % of rays | [ordinary scenes](Precision), `variate`, `short-intervals`, `spot` | `tests/hard_cases.rs` |
-    /// | [`Precision::Fast`] | 2e-3 for 99.9 % of rays | `near-emitter`, `peaks` | `tests/hard_cases.rs` |
+    /// | [`Precision::Fast`] | 2e-3 for 99.9 % of rays | `near-emitter`, `peaks`, `colour` | `tests/hard_cases.rs` |
     /// | [`Precision::Fast`] | 1e-3 for 99.9 % of rays | `infinite-rays` | `tests/hard_cases.rs` |
     /// | [`Precision::Fast`] | 1e-4 for 99.9 % of rays | `random-bits` | `tests/hard_cases.rs` |
     /// | [`Precision::Fast`] | none | `cosine` | |
@@ -272,7 +276,7 @@ impl Sampler {
     /// | error at the given `t` | where | test |
     /// |---|---|---|
     /// | 48 ulp at most | all families, the emitter at least 1e-7 of its distance off the ray's line | `tests/hard_cases.rs` |
-    /// | 32 ulp for 99.9 % of rays, 4096 at most | families `near-emitter` and `spot`, the emitter nearer to the line | `tests/hard_cases.rs` |
+    /// | 32 ulp for 99.9 % of rays, 4096 at most | families `near-emitter`, `spot` and `colour`, the emitter nearer to the line | `tests/hard_cases.rs` |
     ///
     /// # Errors
     /// As [`sample`](Self::sample).

@@ -65,7 +65,7 @@ fn output_of_another_length_is_named() {
     let (rays, emitters, media) = (columns.rays(0..N), columns.emitters(0..N), columns.media(0..N));
     let sampler = Sampler::new(Strategy::PointNormal);
     for other in [0, N - 1, N + 1] {
-        for (k, name) in ["samples.t", "samples.pdf", "samples.weights", "samples.r"].into_iter().enumerate() {
+        for (k, name) in ["samples.t", "samples.pdf", "samples.weights[0]", "samples.r"].into_iter().enumerate() {
             let mut drawn = Drawn::new(N);
             let columns_out = [&mut drawn.t, &mut drawn.pdf, &mut drawn.weight, &mut drawn.r];
             columns_out.into_iter().nth(k).unwrap().resize(other, f32::NAN);

@@ -80,7 +80,16 @@ impl<'a> Emitters<'a> {
     /// ```
     #[must_use]
     pub fn table(table: &'a [Emitter], index: &'a [u32]) -> Self {
-        let has_spots = table.iter().any(|emitter| emitter.cone().is_some());
+        Self::entries(table, index, Self::have_spots(table))
+    }
+
+    /// Whether there are spots in a table.
+    pub(crate) fn have_spots(table: &[Emitter]) -> bool {
+        table.iter().any(|emitter| emitter.cone().is_some())
+    }
+
+    /// A table of which it is known whether it has spots.
+    pub(crate) fn entries(table: &'a [Emitter], index: &'a [u32], has_spots: bool) -> Self {
         Self { points: Source::Table { table, index }, cones: has_spots.then_some(Source::Table { table, index }) }
     }
 

@@ -47,7 +47,7 @@ impl<'a> Samples<'a> {
         self.weights([weight])
     }
 
-    /// Adds weights of a coloured medium, a column for each channel; columns beyond the fourth are not written.
+    /// Adds weights of a coloured medium, a column for each of its channels, which are at most 4.
     ///
     /// ```
     /// # use airlight::Samples;
@@ -56,6 +56,7 @@ impl<'a> Samples<'a> {
     /// ```
     #[must_use]
     pub fn weights<const C: usize>(self, weights: [&'a mut [f32]; C]) -> Self {
+        const { assert!(C <= MOST_CHANNELS, "no medium has more channels") };
         Self { weights: columns(weights), ..self }
     }
 
@@ -65,9 +66,10 @@ impl<'a> Samples<'a> {
         Self { r: Some(r), ..self }
     }
 
-    /// The number of columns of weights.
-    pub(crate) fn channels(&self) -> usize {
-        self.weights.iter().flatten().count()
+    /// The number of columns of weights, if the first ones are those that are there.
+    pub(crate) fn channels(&self) -> Option<usize> {
+        let first = self.weights.iter().take_while(|weight| weight.is_some()).count();
+        (self.weights.iter().flatten().count() == first).then_some(first)
     }
 
     /// The same columns, borrowed.
@@ -77,7 +79,7 @@ impl<'a> Samples<'a> {
     }
 
     /// The columns that are always there, and the optional ones.
-    fn columns(self) -> ([&'a mut [f32]; 2], Optional<'a>) {
+    fn parts(self) -> ([&'a mut [f32]; 2], Optional<'a>) {
         let [w_0, w_1, w_2, w_3] = self.weights;
         ([self.t, self.pdf], [w_0, w_1, w_2, w_3, self.r])
     }
@@ -97,20 +99,20 @@ impl Outputs for OfSamples {
     type At<'a> = Samples<'a>;
 
     fn split_at<'a>(out: Self::At<'a>, k: usize) -> (Self::At<'a>, Self::At<'a>) {
-        let ([t, pdf], optional) = out.columns();
+        let ([t, pdf], optional) = out.parts();
         let ((t, t_rest), (pdf, pdf_rest)) = (t.split_at_mut(k), pdf.split_at_mut(k));
         let (optional, optional_rest) = Columns::split_at(optional, k);
         (Samples::of([t, pdf], optional), Samples::of([t_rest, pdf_rest], optional_rest))
     }
 
     fn part<'b>(out: &'b mut Samples<'_>, range: Range<usize>) -> Samples<'b> {
-        let ([t, pdf], optional) = out.reborrow().columns();
+        let ([t, pdf], optional) = out.reborrow().parts();
         let optional = optional.map(|column| column.map(|column| &mut column[range.clone()]));
         Samples::of([&mut t[range.clone()], &mut pdf[range]], optional)
     }
 
     fn by_pads<R>(out: Samples<'_>, write: impl FnOnce(Samples<'_>) -> R) -> R {
-        let ([t, pdf], optional) = out.columns();
+        let ([t, pdf], optional) = out.parts();
         Column::by_pads(t, |t| {
             Column::by_pads(pdf, |pdf| Columns::by_pads(optional, |optional| write(Samples::of([t, pdf], optional))))
         })
@@ -122,7 +124,7 @@ impl OfRuns for OfSamples {
         if let Some(range) = run.together() {
             return write(Self::part(out, range));
         }
-        let ([t, pdf], mut optional) = out.reborrow().columns();
+        let ([t, pdf], mut optional) = out.reborrow().parts();
         run.scatter(t, |t| {
             run.scatter(pdf, |pdf| {
                 Columns::of_run(&mut optional, run, |optional| write(Samples::of([t, pdf], optional)))

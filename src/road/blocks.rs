@@ -2,8 +2,9 @@
 //!
 //! A pass reads the records of the pass before and writes its own; they stay in the nearest caches. The passes are
 //!
-//! 1. geometry, the part that is needed: the lit interval, then the foot of the perpendicular, and hard lanes in f64;
-//! 2. set-up, inversion and output of a density, in one pass for one variate per ray, else in one each;
+//! 1. geometry, the part that is needed: the lit interval, then the foot of the perpendicular, hard lanes in f64, and spots in f64;
+//! 2. set-up, inversion and output of a density, in one pass for one variate per ray without spots and colours, else in one
+//!    each;
 //! 3. weights, the same for all densities.
 
 use crate::Precision;
@@ -425,7 +426,7 @@ fn in_double<I: Isa, const FOOT: bool, const COSINE: bool>(
     );
 }
 
-/// Computes the geometry of spots in f64, and replaces that of other emitters in their lanes.
+/// The geometry of spots in f64, in place of what the lanes of spots have.
 fn in_cones<I: Isa>(
     isa: I,
     inputs: &Inputs<'_>,

@@ -33,6 +33,7 @@ pub(crate) struct Lights<'t> {
     pub(crate) table: &'t [Emitter],
     /// One weight per emitter.
     pub(crate) weights: &'t [f32],
+    pub(crate) has_spots: bool,
 }
 
 /// Chooses one of the [`Lights`].
@@ -256,7 +257,7 @@ impl<const K: usize> OfBlock<'_, '_, K> {
             let number = isa.splat(offset as f32);
             self.for_each_share(
                 isa,
-                Emitters::table(self.lights.table, index),
+                Emitters::entries(self.lights.table, index, self.lights.has_spots),
                 Rows::Each([weights]),
                 #[cfg_attr(optimized, inline(always))]
                 |record, share: I::V| {

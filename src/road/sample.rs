@@ -17,7 +17,7 @@ impl Task for Sample {
 
     fn run(machine: impl Machine, method: Method, inputs: &Inputs<'_>, out: Samples<'_>) -> Counts {
         // Two kernels: only the one with weights or `r` keeps points.
-        if out.channels() > 0 || out.r.is_some() {
+        if out.weights.iter().any(Option::is_some) || out.r.is_some() {
             by_strategy::<Drawing<true>>(machine, method, inputs, out)
         } else {
             by_strategy::<Drawing<false>>(machine, method, inputs, out)
@@ -290,7 +290,7 @@ fn weigh<I: Isa>(isa: I, block: &Block<'_, I>, turns: &[Turn], points: &[Sampled
                 }
             }
             let (rays, geometries) = (block.inputs.ray_groups::<I>(), block.geometries());
-            let columns = out.channels();
+            let columns = out.weights.iter().flatten().count();
             for (column, weight) in out.weights.iter_mut().flatten().enumerate() {
                 let media = block.media.of_output(column, columns).groups(isa);
                 let mut medium = media.media(isa, 0);
