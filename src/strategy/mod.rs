@@ -118,7 +118,7 @@ pub enum Strategy {
     /// Nearly proportional to the whole integrand `T rho N / r^2`: a line through its values at 3 places.
     ///
     /// The density is that of [`Product5`](Self::Product5) with 3 knots. In a coloured medium it is that of the
-    /// [mean](crate::Medium::mean): 3 knots follow no channel well.
+    /// [mean](crate::Medium::mean).
     ///
     /// | | |
     /// |---|---|
@@ -160,7 +160,7 @@ pub enum Strategy {
     /// Nearly proportional to the whole integrand `T rho N / r^2`: a line through its values at 17 places.
     ///
     /// The density is that of [`Product5`](Self::Product5) with 17 knots. In a coloured medium it is that of the
-    /// [mean](crate::Medium::mean): no channel has less variance with it than with 9 knots.
+    /// [mean](crate::Medium::mean).
     ///
     /// | | |
     /// |---|---|

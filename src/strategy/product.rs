@@ -134,8 +134,8 @@ struct Found<I: Isa> {
 }
 
 impl<I: Isa, const K: usize> Product<I, K> {
-    /// Whether coloured media have the mixture (9.1) of their channels' densities, not the density of the mean. 3 knots follow no
-    /// channel well, and 17 leave no channel less variance than 9.
+    /// Whether coloured media have a mixture of the densities of their channels, not the density of the mean: each of the two
+    /// that are most in use. More would take longer to compile than they are worth.
     const MIXES: bool = K == 5 || K == 9;
 
     /// `v_k` (6.6).
