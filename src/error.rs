@@ -45,8 +45,8 @@ pub enum Error {
     Unavailable {
         /// The feature, such as `fast precision`.
         field: &'static str,
-        /// The strategy that does not have it; `None` if no strategy has it.
-        strategy: Option<Strategy>,
+        /// The strategy that does not have it.
+        strategy: Strategy,
     },
     /// A parameter is out of its range.
     #[non_exhaustive]
@@ -84,10 +84,7 @@ impl fmt::Display for Error {
             Self::Length { field, length, expected } => {
                 write!(f, "{field} has {length} elements, expected {expected}")
             }
-            Self::Unavailable { field, strategy: Some(strategy) } => {
-                write!(f, "the strategy {strategy} has no {field}")
-            }
-            Self::Unavailable { field, strategy: None } => write!(f, "there are no kernels for {field}"),
+            Self::Unavailable { field, strategy } => write!(f, "the strategy {strategy} has no {field}"),
             Self::Value { field, value, expected } => write!(f, "{field} is {value}, expected {expected}"),
         }
     }

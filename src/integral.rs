@@ -119,7 +119,7 @@ impl Integral {
         media: &Media<'_>,
         radiance: &mut [f32],
     ) -> Result<Counts, Error> {
-        self.radiances(rays, emitters, media, [radiance])
+        self.radiance_coloured(rays, emitters, media, [radiance])
     }
 
     /// The same in coloured media: the radiance of each ray in every channel, a column for each.
@@ -139,16 +139,6 @@ impl Integral {
     /// # Errors
     /// As [`radiance`](Self::radiance); [`Error::Channels`] unless there are as many columns as the media have channels.
     pub fn radiance_coloured<const C: usize>(
-        &self,
-        rays: &Rays<'_>,
-        emitters: &Emitters<'_>,
-        media: &Media<'_>,
-        radiances: [&mut [f32]; C],
-    ) -> Result<Counts, Error> {
-        self.radiances(rays, emitters, media, radiances)
-    }
-
-    fn radiances<const C: usize>(
         &self,
         rays: &Rays<'_>,
         emitters: &Emitters<'_>,

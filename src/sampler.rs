@@ -60,7 +60,7 @@ impl Sampler {
                 Precision::Exact => "exact precision",
                 Precision::Fast => "fast precision",
             };
-            Err(Error::Unavailable { field, strategy: Some(self.strategy) })
+            Err(Error::Unavailable { field, strategy: self.strategy })
         }
     }
 
@@ -289,7 +289,7 @@ impl Sampler {
         t: &[f32],
         integrand: &mut [f32],
     ) -> Result<Counts, Error> {
-        self.integrands(rays, emitters, media, t, [integrand])
+        self.evaluate_coloured(rays, emitters, media, t, [integrand])
     }
 
     /// The same in coloured media: the integrand in every channel, a column for each.
@@ -297,17 +297,6 @@ impl Sampler {
     /// # Errors
     /// As [`sample`](Self::sample); [`Error::Channels`] unless there are as many columns as the media have channels.
     pub fn evaluate_coloured<const C: usize>(
-        &self,
-        rays: &Rays<'_>,
-        emitters: &Emitters<'_>,
-        media: &Media<'_>,
-        t: &[f32],
-        integrands: [&mut [f32]; C],
-    ) -> Result<Counts, Error> {
-        self.integrands(rays, emitters, media, t, integrands)
-    }
-
-    fn integrands<const C: usize>(
         &self,
         rays: &Rays<'_>,
         emitters: &Emitters<'_>,
