@@ -81,11 +81,6 @@ impl<'a> Inputs<'a> {
         if channels == expected { Ok(()) } else { Err(error) }
     }
 
-    /// Whether there are neither spots nor coloured media.
-    pub(crate) fn are_plain(&self) -> bool {
-        self.emitters.cones.is_none() && self.media.channels() == 1
-    }
-
     pub(crate) fn len(&self) -> usize {
         self.rays.len()
     }

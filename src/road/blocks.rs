@@ -3,8 +3,7 @@
 //! A pass reads the records of the pass before and writes its own; they stay in the nearest caches. The passes are
 //!
 //! 1. geometry, the part that is needed: the lit interval, then the foot of the perpendicular, hard lanes in f64, and spots in f64;
-//! 2. set-up, inversion and output of a density, in one pass for one variate per ray without spots and colours, else in one
-//!    each;
+//! 2. set-up, inversion and output of a density, a pass each: the shorter a pass, the more groups are in flight at a time;
 //! 3. weights, the same for all densities.
 
 use crate::Precision;
@@ -194,6 +193,9 @@ impl<I: Isa> Places<I> {
 /// Calls `visit` for runs of the turns of a block, each at most as long as there is storage for records.
 pub(super) fn for_each_run<I: Isa>(block: &Block<'_, I>, mut visit: impl FnMut(Run<'_>)) {
     let Block { inputs, groups, .. } = block;
+    if inputs.per_ray == 1 {
+        return visit(block.one_turn());
+    }
     let mut turns = [Turn::default(); GROUPS];
     let mut count = 0;
     for record in 0..groups.len() {
@@ -210,6 +212,7 @@ pub(super) fn for_each_run<I: Isa>(block: &Block<'_, I>, mut visit: impl FnMut(R
 }
 
 /// The counts of a chunk, summed in the lanes: whole numbers that f32 can hold.
+#[derive(Clone, Copy)]
 pub(super) struct Tally<I: Isa> {
     valid: I::V,
     sampled: I::V,
