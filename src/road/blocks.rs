@@ -281,7 +281,9 @@ fn in_single<I: Isa, const EXACT: bool, const FOOT: bool, const COSINE: bool, co
             let mut cosines = places.cosines.start();
             let (mut every, mut any) = (!none(isa), none(isa));
             for group in groups.clone() {
-                rays.prefetch(isa, group, AHEAD);
+                if inputs.prefetch {
+                    rays.prefetch(isa, group, AHEAD);
+                }
                 if DIFFER {
                     emitter = emitters.emitters(isa, group - groups.start);
                 }
@@ -405,7 +407,9 @@ fn in_double<I: Isa, const FOOT: bool, const COSINE: bool>(
             let (mut emitter, start) = (emitters.emitters(isa, 0), groups.start);
             let (mut lits, mut cosines, mut feet) = (places.lits.start(), places.cosines.start(), places.feet.start());
             for group in groups {
-                rays.prefetch(isa, group, AHEAD);
+                if inputs.prefetch {
+                    rays.prefetch(isa, group, AHEAD);
+                }
                 if emitters.differ() {
                     emitter = emitters.emitters(isa, group - start);
                 }
