@@ -4,9 +4,9 @@ use super::blocks::{Block, Tally, Wanted, for_each_block};
 use super::{Out, Task};
 use crate::batch::{Columns, Counts, Inputs, MediumRows};
 use crate::geometry::Extent;
-use crate::integral::rule::Rule;
+use crate::integral::rule::{Rule, Variable};
 use crate::scene::MOST_CHANNELS;
-use crate::simd::{GROUPS, Isa, Kernel, Lanes, Machine, none};
+use crate::simd::{GROUPS, Isa, Kernel, Lanes, Machine, Records, Room, none};
 use crate::{Nodes, Precision};
 
 /// The number of nodes, and the precision of the geometry.
@@ -98,12 +98,21 @@ pub(super) fn for_each_radiance<I: Isa, const K: usize>(
     let (rays, media) = (block.inputs.ray_groups::<I>(), media.groups(isa));
     let mut medium = media.media(isa, 0);
     let geometries = block.geometries();
+    let mut variables = Records::<Variable<I>>::new();
+    let variables = variables.fill(
+        block.groups.len(),
+        #[cfg_attr(optimized, inline(always))]
+        |record| {
+            media.renew(isa, record, &mut medium);
+            Rule::<K>::variable(isa, geometries.get(record), &medium)
+        },
+    );
     for record in 0..block.groups.len() {
         let (group, geometry) = (block.groups.start + record, geometries.get(record));
         media.renew(isa, record, &mut medium);
         let valid = geometry.lit.valid & medium.valid;
         let lit = valid & geometry.lit(isa);
-        let radiance = Rule::<K>::radiance(isa, &rays.lanes(isa, group), geometry, &medium);
+        let radiance = Rule::<K>::radiance(isa, &rays.lanes(isa, group), geometry, &medium, &variables[record]);
         visit(record, Integrated { radiance: I::V::only(lit, radiance.min(isa.splat(f32::MAX))), valid, lit });
     }
 }
