@@ -16,7 +16,7 @@ pub use emitters::Emitters;
 pub(crate) use emitters::{ConePlace, ConeRows, EmitterPlace, EmitterRows};
 pub(crate) use inputs::Inputs;
 pub use media::Media;
-pub(crate) use media::{ChannelGroups, MediaPlace, MediaRows, MediumRows};
+pub(crate) use media::{ChannelGroups, MediaPlace, MediaRows, MediumGroups, MediumRows};
 pub(crate) use outputs::{Choices, Column, Columns, OfRuns, Outputs, columns};
 pub(crate) use pads::{Pad, Pads, first_values};
 pub(crate) use rays::RayGroups;

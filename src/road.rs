@@ -164,11 +164,7 @@ pub(crate) fn travel_one<T: Task>(
 
 /// Two parts of whole chunks of about `values` values (only the last chunk may be short), the first with about `low/all` of them;
 /// `None` for a single chunk.
-fn parts<'a>(
-    inputs: &Inputs<'a>,
-    [low, all]: [usize; 2],
-    values: usize,
-) -> Option<(Inputs<'a>, Inputs<'a>)> {
+fn parts<'a>(inputs: &Inputs<'a>, [low, all]: [usize; 2], values: usize) -> Option<(Inputs<'a>, Inputs<'a>)> {
     // Both parts have at least one chunk.
     let first = |length: usize, chunk: usize| {
         let chunks = length.div_ceil(chunk) as u128 * low as u128 / all as u128;

@@ -1,13 +1,13 @@
 //! Samples a distance for every variate.
 
-use super::blocks::{AHEAD, Block, SetUps, Tally, Wanted, for_each_block, for_each_run, set_up};
+use super::blocks::{AHEAD, Block, SetUps, Setting, Tally, Wanted, for_each_block, for_each_run, set_up};
 use super::{Method, OfDensity, Out, Task, by_strategy};
 use crate::Precision;
 use crate::batch::{Counts, Inputs, OfRuns, OfSamples, Samples, Turn};
 use crate::density::{Density, Kind, SetUp};
 use crate::geometry::{Extent, Geometry, Point};
 use crate::integrand::{MediumLanes, integrand_r2};
-use crate::simd::{Isa, Lanes, Machine, Records, Room};
+use crate::simd::{GROUPS, Isa, Lanes, Machine, Records, Room};
 
 pub(crate) struct Sample;
 
@@ -45,12 +45,23 @@ impl<const WITH_WEIGHT_OR_R: bool> OfDensity for Drawing<WITH_WEIGHT_OR_R> {
         let mut places = Records::new();
         let mut points = Records::new();
         let mut pad = None;
+        let once = inputs.per_ray == 1 && SetUps::<I, D>::SIZE < GROUPS;
         let wanted = Wanted {
             precision,
             extent: if WITH_WEIGHT_OR_R { Extent::Cosine } else { D::On::<I>::EXTENT },
-            records: SetUps::<I, D>::SIZE,
+            records: if once { GROUPS } else { SetUps::<I, D>::SIZE },
         };
         for_each_block(isa, inputs, wanted, |block| {
+            if once {
+                let run = block.one_turn();
+                let u = run.values(inputs.given, &mut pad);
+                return OfSamples::of_run(&mut out, run, |mut out| {
+                    let points = at_once::<I, D, WITH_WEIGHT_OR_R>(isa, block, u, &mut points, &mut out, &mut tally);
+                    if WITH_WEIGHT_OR_R {
+                        weigh(isa, block, run.turns, points, &mut out);
+                    }
+                });
+            }
             let set_ups = set_up::<I, D, D::On<I>>(isa, block, &mut set_ups);
             for_each_run(block, |run| {
                 let u = run.values(inputs.given, &mut pad);
@@ -66,6 +77,37 @@ impl<const WITH_WEIGHT_OR_R: bool> OfDensity for Drawing<WITH_WEIGHT_OR_R> {
         });
         tally.counts(isa, inputs)
     }
+}
+
+/// Set-up, inversion and output in one pass, for one variate per ray; writes `t` and `pdf`, and keeps the points for weights and
+/// `r`.
+fn at_once<'r, I: Isa, D: Kind, const KEEP: bool>(
+    isa: I,
+    block: &Block<'_, I>,
+    u: &[f32],
+    points: &'r mut Records<Sampled<I>>,
+    out: &mut Samples<'_>,
+    tally: &mut Tally<I>,
+) -> &'r [Sampled<I>] {
+    isa.vectorize::<D, _>(
+        #[cfg_attr(optimized, inline(always))]
+        || {
+            let (mut setting, geometries) = (Setting::new(isa, block), block.geometries());
+            let (mut kept, mut counted) = (points.start(), *tally);
+            let columns = I::groups(u).iter().zip(I::groups_mut(out.t)).zip(I::groups_mut(out.pdf));
+            for (record, ((u, t), pdf)) in (0..block.groups.len()).zip(columns) {
+                let (geometry, set_up) = (geometries.get(record), setting.up::<D::On<I>>(isa, record));
+                let placed = Placed::new(isa, geometry, &set_up, u);
+                let sampled = point_one::<I, D>(isa, geometry, &set_up, &placed, t, pdf, &mut counted);
+                if KEEP {
+                    kept.push(sampled);
+                }
+            }
+            *tally = counted;
+            kept.done();
+        },
+    );
+    points.written()
 }
 
 /// The place of a variate.
