@@ -171,7 +171,7 @@ fn legend(name: &str) -> &'static str {
         "cdf" => "|CDF(t) - u|",
         "cdf_resolved" => "the same where half an ulp of t changes the CDF by 2^-18 at most",
         "cdf_floor" => "what exact arithmetic, rounded to f32 once, has for cdf; on every 16th ray",
-        "cdf_at_t" => "how far Sampler::cdf at t is from the CDF there",
+        "cdf_at_t" => "how far Sampler::cdf at t is from the CDF there, beyond what 2^-44 of the distances change it",
         "cdf_beyond_t" => "how far u is from the CDFs of all distances that round to t",
         "offset" => "distance from the nearer end of the interval, beyond the rounding of t [ulp]",
         "offset_floor" => "what exact arithmetic on geometry rounded to f32 has for offset; on every 16th ray [ulp]",
