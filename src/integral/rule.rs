@@ -99,6 +99,23 @@ pub(crate) struct Variable<I: Isa> {
     inv_size: I::V,
 }
 
+impl<I: Isa> Variable<I> {
+    /// (1.3): the transmittance from `t_min` over the start of the lit part to the emitter. Without `EXACT` the path is in f32.
+    #[cfg_attr(optimized, inline(always))]
+    pub(crate) fn start<const EXACT: bool>(
+        &self,
+        isa: I,
+        ray: &RayLanes<I>,
+        geometry: Geometry<'_, I>,
+        medium: &MediumLanes<I>,
+    ) -> I::V {
+        if EXACT {
+            return transmittance(isa, ray, geometry, medium, &geometry.start(isa, self.r_a));
+        }
+        one_minus_exp(isa, medium.mu_t * ((geometry.lit.a.t - ray.t_min) + self.r_a)).1
+    }
+}
+
 /// The rule with `K` nodes.
 pub(crate) struct Rule<const K: usize>;
 
@@ -145,19 +162,19 @@ impl<const K: usize> Rule<K> {
         Variable { r_a, x_a, h_x_a, h_x_b, y_b, y_c, w_0, s_b, d, inv_size }
     }
 
-    /// (7.3): the integral of the integrand over the lit part of the ray \[1/m^2\].
+    /// (7.3): the integral of the integrand over the lit part of the ray \[1/m^2\], given the transmittance at its `start`.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn radiance<I: Isa>(
         isa: I,
-        ray: &RayLanes<I>,
         geometry: Geometry<'_, I>,
         medium: &MediumLanes<I>,
         variable: &Variable<I>,
+        start: I::V,
     ) -> I::V {
         let c = |x| isa.splat(x);
         let (g, h, one) = (geometry, geometry.foot.h, c(1.0));
         let Lobe { a2, b2, height, .. } = medium.lobe;
-        let Variable { r_a, x_a, h_x_a, h_x_b, y_b, y_c, w_0, s_b, d, inv_size } = *variable;
+        let Variable { x_a, h_x_a, h_x_b, y_b, y_c, w_0, s_b, d, inv_size, .. } = *variable;
         let depth = medium.mu_t * y_c;
 
         // h, X_a and Y_c over the largest of them.
@@ -197,7 +214,6 @@ impl<const K: usize> Rule<K> {
         // The units, Y_c/(1 + e), and the 4 of (5.12) or the 2 of (5.13).
         let unit = inv_size * (w_0 * y_c_unit) * I::V::select(g.cosine.has_normal, c(4.0), c(2.0));
         let mass = (sum * unit).min(c(f32::MAX));
-        let start = transmittance(isa, ray, g, medium, &g.start(isa, r_a));
         (medium.mu_s * start) * (height * mass)
     }
 }
