@@ -474,18 +474,18 @@ pub(super) fn set_up<'r, I: Isa, Home, D: Density<I>>(
     isa.vectorize::<Home, _>(
         #[cfg_attr(optimized, inline(always))]
         || {
-            let mut setting = Setting::new(isa, block);
+            let mut for_set_up = ForSetUp::new(isa, block);
             records.fill(
                 block.groups.len(),
                 #[cfg_attr(optimized, inline(always))]
-                |record| setting.up(isa, record),
+                |record| for_set_up.set_up(isa, record),
             )
         },
     )
 }
 
 /// What the set-ups of a block need, for a pass.
-pub(super) struct Setting<'b, I: Isa> {
+pub(super) struct ForSetUp<'b, I: Isa> {
     first: usize,
     rays: RayGroups<'b, I>,
     media: MediumGroups<'b, I>,
@@ -494,7 +494,7 @@ pub(super) struct Setting<'b, I: Isa> {
     geometries: Geometries<'b, I>,
 }
 
-impl<'b, I: Isa> Setting<'b, I> {
+impl<'b, I: Isa> ForSetUp<'b, I> {
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn new(isa: I, block: &'b Block<'b, I>) -> Self {
         let media = block.media.means.groups(isa);
@@ -510,7 +510,7 @@ impl<'b, I: Isa> Setting<'b, I> {
 
     /// Sets up the density of a record.
     #[cfg_attr(optimized, inline(always))]
-    pub(super) fn up<D: Density<I>>(&mut self, isa: I, record: usize) -> SetUp<I, D> {
+    pub(super) fn set_up<D: Density<I>>(&mut self, isa: I, record: usize) -> SetUp<I, D> {
         self.media.renew(isa, record, &mut self.medium);
         let ray = self.rays.lanes(isa, self.first + record);
         let channels = ChannelGroups::lanes(self.channels.as_ref(), isa, record);

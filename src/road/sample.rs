@@ -1,6 +1,6 @@
 //! Samples a distance for every variate.
 
-use super::blocks::{AHEAD, Block, SetUps, Setting, Tally, Wanted, for_each_block, for_each_run, set_up};
+use super::blocks::{AHEAD, Block, ForSetUp, SetUps, Tally, Wanted, for_each_block, for_each_run, set_up};
 use super::{Method, OfDensity, Out, Task, by_strategy};
 use crate::Precision;
 use crate::batch::{Counts, Inputs, OfRuns, OfSamples, Samples, Turn};
@@ -92,11 +92,11 @@ fn at_once<'r, I: Isa, D: Kind, const KEEP: bool>(
     isa.vectorize::<D, _>(
         #[cfg_attr(optimized, inline(always))]
         || {
-            let (mut setting, geometries) = (Setting::new(isa, block), block.geometries());
+            let (mut for_set_up, geometries) = (ForSetUp::new(isa, block), block.geometries());
             let (mut kept, mut counted) = (points.start(), *tally);
             let columns = I::groups(u).iter().zip(I::groups_mut(out.t)).zip(I::groups_mut(out.pdf));
             for (record, ((u, t), pdf)) in (0..block.groups.len()).zip(columns) {
-                let (geometry, set_up) = (geometries.get(record), setting.up::<D::On<I>>(isa, record));
+                let (geometry, set_up) = (geometries.get(record), for_set_up.set_up::<D::On<I>>(isa, record));
                 let placed = Placed::new(isa, geometry, &set_up, u);
                 let sampled = point_one::<I, D>(isa, geometry, &set_up, &placed, t, pdf, &mut counted);
                 if KEEP {
