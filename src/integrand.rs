@@ -10,7 +10,7 @@
 //!
 //! Departures from this, and why:
 //!
-//! 1. The path `t - t_min + r` is in f64 (1.13): the exponential multiplies its relative error by the optical depth.
+//! 1. With `EXACT` the path `t - t_min + r` is in f64 (1.13): the exponential multiplies its relative error by the optical depth.
 //! 2. The denominator of `rho` is (1.11), `(1 - |g|)^2 + 2 |g| (1 + s)` with `s = sin theta sign g` and `1 + s` by (1.12): nothing
 //!    cancels.
 //! 3. That denominator is at least 1e-24, for `|g|` = 1 alone, where `rho` is 0.
@@ -18,7 +18,7 @@
 use crate::expansion::Expanded;
 use crate::geometry::{Geometry, Point, RayLanes};
 use crate::scene::MOST_CHANNELS;
-use crate::simd::math::exp;
+use crate::simd::math::{exp, one_minus_exp};
 use crate::simd::{Isa, Lanes, Number};
 
 /// The media of a lane group.
@@ -77,26 +77,29 @@ impl<I: Isa> MediumLanes<I> {
 
 /// (1.2): `mu_s T rho N` \[1/m\], with the falloff `S` of a spot in place of `N`.
 #[cfg_attr(optimized, inline(always))]
-pub(crate) fn integrand_r2<I: Isa>(
+pub(crate) fn integrand_r2<I: Isa, const EXACT: bool>(
     isa: I,
     ray: &RayLanes<I>,
     geometry: Geometry<'_, I>,
     medium: &MediumLanes<I>,
     point: &Point<I>,
 ) -> I::V {
-    (medium.mu_s * transmittance(isa, ray, geometry, medium, point))
+    (medium.mu_s * transmittance::<I, EXACT>(isa, ray, geometry, medium, point))
         * (phase(isa, geometry, medium.g, point) * geometry.intensity(isa, point))
 }
 
 /// (1.3): the transmittance from `t_min` over the point to the emitter.
 #[cfg_attr(optimized, inline(always))]
-pub(crate) fn transmittance<I: Isa>(
+pub(crate) fn transmittance<I: Isa, const EXACT: bool>(
     isa: I,
     ray: &RayLanes<I>,
     geometry: Geometry<'_, I>,
     medium: &MediumLanes<I>,
     point: &Point<I>,
 ) -> I::V {
+    if !EXACT {
+        return one_minus_exp(isa, medium.mu_t * ((point.t - ray.t_min) + point.r)).1;
+    }
     exp(isa, -(medium.mu_t.widen() * geometry.foot.path(isa, ray.t_min, point)))
 }
 

@@ -100,7 +100,7 @@ pub(crate) struct Variable<I: Isa> {
 }
 
 impl<I: Isa> Variable<I> {
-    /// (1.3): the transmittance from `t_min` over the start of the lit part to the emitter. Without `EXACT` the path is in f32.
+    /// (1.3): the transmittance from `t_min` over the start of the lit part to the emitter.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn start<const EXACT: bool>(
         &self,
@@ -109,10 +109,7 @@ impl<I: Isa> Variable<I> {
         geometry: Geometry<'_, I>,
         medium: &MediumLanes<I>,
     ) -> I::V {
-        if EXACT {
-            return transmittance(isa, ray, geometry, medium, &geometry.start(isa, self.r_a));
-        }
-        one_minus_exp(isa, medium.mu_t * ((geometry.lit.a.t - ray.t_min) + self.r_a)).1
+        transmittance::<I, EXACT>(isa, ray, geometry, medium, &geometry.start(isa, self.r_a))
     }
 }
 

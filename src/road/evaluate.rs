@@ -68,7 +68,7 @@ fn integrands<I: Isa>(
                     let (valid, faced) = (geometry.lit.valid & medium.valid & t.eq(t), geometry.faced(isa));
                     let inside = valid & faced & ray.t_min.le(t) & t.le(ray.end(isa));
                     let point = geometry.point_at_distance(isa, t);
-                    let f = integrand_r2(isa, &ray, geometry, &medium, &point) / (point.r * point.r);
+                    let f = integrand_r2::<I, true>(isa, &ray, geometry, &medium, &point) / (point.r * point.r);
                     isa.store(I::V::only(inside, f.min(isa.splat(f32::MAX))), out);
                     if column == 0 {
                         tally.add(valid, valid & faced, none(isa));

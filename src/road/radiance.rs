@@ -110,9 +110,10 @@ pub(super) fn for_each_radiance<I: Isa, const K: usize>(
             Rule::<K>::variable(isa, geometries.get(record), &medium)
         },
     );
-    let starts = match precision {
-        Precision::Exact => fill_starts::<I, true>(isa, block, &media, variables, &mut starts),
-        Precision::Fast => fill_starts::<I, false>(isa, block, &media, variables, &mut starts),
+    let starts = if precision.is_exact::<I>() {
+        fill_starts::<I, true>(isa, block, &media, variables, &mut starts)
+    } else {
+        fill_starts::<I, false>(isa, block, &media, variables, &mut starts)
     };
     for (record, (variable, start)) in variables.iter().zip(starts).enumerate() {
         let geometry = geometries.get(record);

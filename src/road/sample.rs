@@ -58,7 +58,7 @@ impl<const WITH_WEIGHT_OR_R: bool> OfDensity for Drawing<WITH_WEIGHT_OR_R> {
                 return OfSamples::of_run(&mut out, run, |mut out| {
                     let points = at_once::<I, D, WITH_WEIGHT_OR_R>(isa, block, u, &mut points, &mut out, &mut tally);
                     if WITH_WEIGHT_OR_R {
-                        weigh(isa, block, run.turns, points, &mut out);
+                        weigh(isa, precision, block, run.turns, points, &mut out);
                     }
                 });
             }
@@ -70,7 +70,7 @@ impl<const WITH_WEIGHT_OR_R: bool> OfDensity for Drawing<WITH_WEIGHT_OR_R> {
                     let pass = Points::<I, D> { block, set_ups, turns: run.turns, places };
                     let points = pass.write::<WITH_WEIGHT_OR_R>(isa, &mut points, &mut out, &mut tally);
                     if WITH_WEIGHT_OR_R {
-                        weigh(isa, block, run.turns, points, &mut out);
+                        weigh(isa, precision, block, run.turns, points, &mut out);
                     }
                 });
             });
@@ -239,7 +239,28 @@ fn point_one<I: Isa, D: Kind>(
 }
 
 /// Writes the weights of the points (1.9), and their distances to the emitter.
-fn weigh<I: Isa>(isa: I, block: &Block<'_, I>, turns: &[Turn], points: &[Sampled<I>], out: &mut Samples<'_>) {
+fn weigh<I: Isa>(
+    isa: I,
+    precision: Precision,
+    block: &Block<'_, I>,
+    turns: &[Turn],
+    points: &[Sampled<I>],
+    out: &mut Samples<'_>,
+) {
+    if precision.is_exact::<I>() {
+        weigh_in::<I, true>(isa, block, turns, points, out);
+    } else {
+        weigh_in::<I, false>(isa, block, turns, points, out);
+    }
+}
+
+fn weigh_in<I: Isa, const EXACT: bool>(
+    isa: I,
+    block: &Block<'_, I>,
+    turns: &[Turn],
+    points: &[Sampled<I>],
+    out: &mut Samples<'_>,
+) {
     isa.vectorize::<MediumLanes<I>, _>(
         #[cfg_attr(optimized, inline(always))]
         || {
@@ -259,7 +280,7 @@ fn weigh<I: Isa>(isa: I, block: &Block<'_, I>, turns: &[Turn], points: &[Sampled
                     let group = block.groups.start + turn.record;
                     media.renew(isa, turn.record, &mut medium);
                     let (ray, geometry) = (rays.lanes(isa, group), geometries.get(turn.record));
-                    let f = integrand_r2(isa, &ray, geometry, &medium, point);
+                    let f = integrand_r2::<I, EXACT>(isa, &ray, geometry, &medium, point);
                     let value = (f / *times_r2).min(isa.splat(f32::MAX));
                     isa.store(I::V::only(*sampled & isa.splat(0.0).lt(*times_r2), value), weight);
                 }
