@@ -36,13 +36,13 @@ use std::str::FromStr;
 /// For a spot, product densities have the falloff `S` in place of the cosine `N`. The others but `Transmittance` are those of an
 /// emitter without a normal, on the part of the ray inside the cone.
 ///
-/// # Densities beside the integrand
+/// - **Plot**: the density (line) beside the integrand (area), both with the integral 1, and the `V` of that ray. The emitter is
+///   0.5 m beside the ray, at `t` 1.6 m, and turns away from the start of the ray; the medium is thin and scatters evenly, or is
+///   dense and scatters forward. The nearer the line is to the area, the smaller is `V`.
 ///
-/// All densities beside the integrand (grey, normalised), in dense fog that scatters forward (`mu_s` 1.5 per m, `g` 0.85), with an
-/// emitter 0.5 m beside the ray that turns away. The nearer a density is to the integrand, the smaller is `V`.
-/// `cargo run --release -- report --out report --quick` draws it, and three easier scenes.
-///
-#[doc = include_str!("../../docs/figure-3.svg")]
+///   ```sh
+///   cargo run --release -- report --strategies docs/strategies
+///   ```
 ///
 /// [mathematics]: crate::guide::mathematics
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -53,6 +53,8 @@ pub enum Strategy {
     /// ```text
     /// p_t = mu_t exp(-mu_t (t - t_min)) / (1 - exp(-mu_t (t_max - t_min)))    t_min <= t <= t_max     (3.1)
     /// ```
+    ///
+    #[doc = include_str!("../../docs/strategies/transmittance.svg")]
     ///
     /// | | |
     /// |---|---|
@@ -67,6 +69,8 @@ pub enum Strategy {
     /// p_t = h / (Theta r^2)    Theta: the angle that the lit part subtends                            (3.3)
     /// ```
     ///
+    #[doc = include_str!("../../docs/strategies/equi-angular.svg")]
+    ///
     /// | | |
     /// |---|---|
     /// | use | point emitters in thin media with `abs(g)` below 0.3, where the sampler shows in a profile |
@@ -79,6 +83,8 @@ pub enum Strategy {
     /// ```text
     /// p_t = N h / (mass r^2)    mass: the integral of N over the angle                                (3.10)
     /// ```
+    ///
+    #[doc = include_str!("../../docs/strategies/point-normal.svg")]
     ///
     /// | | |
     /// |---|---|
@@ -94,6 +100,8 @@ pub enum Strategy {
     /// P: exp(-mu_t h (tan theta + sec theta - 1)) to order 6 about theta = 0, trusted up to theta_c
     /// ```
     ///
+    #[doc = include_str!("../../docs/strategies/taylor-transmittance.svg")]
+    ///
     /// | | |
     /// |---|---|
     /// | use | to compare with the paper: a product density costs less and varies less in all but single cases |
@@ -108,6 +116,8 @@ pub enum Strategy {
     /// P: (1 + g^2 + 2 g sin theta)^(-3/2) to order 6 about theta = 0, trusted up to theta_c; theta mirrored for g < 0
     /// ```
     ///
+    #[doc = include_str!("../../docs/strategies/taylor-phase.svg")]
+    ///
     /// | | |
     /// |---|---|
     /// | use | to compare with the paper: a product density costs less and varies less in all but single cases |
@@ -119,6 +129,8 @@ pub enum Strategy {
     ///
     /// The density is that of [`Product5`](Self::Product5) with 3 knots. In a coloured medium it is that of the
     /// [mean](crate::Medium::mean).
+    ///
+    #[doc = include_str!("../../docs/strategies/product-3.svg")]
     ///
     /// | | |
     /// |---|---|
@@ -138,6 +150,8 @@ pub enum Strategy {
     ///
     /// In a coloured medium it is the mixture (9.1) of the densities of the channels.
     ///
+    #[doc = include_str!("../../docs/strategies/product-5.svg")]
+    ///
     /// | | |
     /// |---|---|
     /// | use | the default: one sample per ray and emitter, and all media. In four rendered scenes, shadows included, it is 1.5 to 11 times as efficient as `EquiAngular` at equal time (`airlight render --compare`) |
@@ -150,6 +164,8 @@ pub enum Strategy {
     ///
     /// The density is that of [`Product5`](Self::Product5) with 9 knots, also in a coloured medium.
     ///
+    #[doc = include_str!("../../docs/strategies/product-9.svg")]
+    ///
     /// | | |
     /// |---|---|
     /// | use | several samples per ray and emitter in one call: they share the set-up |
@@ -161,6 +177,8 @@ pub enum Strategy {
     ///
     /// The density is that of [`Product5`](Self::Product5) with 17 knots. In a coloured medium it is that of the
     /// [mean](crate::Medium::mean).
+    ///
+    #[doc = include_str!("../../docs/strategies/product-17.svg")]
     ///
     /// | | |
     /// |---|---|
