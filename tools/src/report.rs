@@ -25,7 +25,9 @@ use std::path::{Path, PathBuf};
 
 /// Measure speed, variance and accuracy, and write a page of figures with their data
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Examples:\n  airlight report --out report --quick               half a minute on two cores\n  airlight report --strategies docs/strategies")]
+#[command(
+    after_help = "Examples:\n  airlight report --out report --quick               half a minute on two cores\n  airlight report --strategies docs/strategies"
+)]
 pub(crate) struct Args {
     /// Folder of the page index.html, of its figures as .svg and .png, and of their data as .json
     #[arg(long, value_name = "DIR", required_unless_present = "strategies")]

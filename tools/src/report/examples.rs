@@ -30,8 +30,12 @@ pub(super) const THIN_AWAY: Example = Example {
     turned_away: true,
     medium: (0.0, 0.02, 0.0),
 };
-pub(super) const DENSE: Example =
-    Example { name: "figure-3-dense", title: "Dense fog, a point emitter", turned_away: false, medium: (0.0, 2.5, 0.0) };
+pub(super) const DENSE: Example = Example {
+    name: "figure-3-dense",
+    title: "Dense fog, a point emitter",
+    turned_away: false,
+    medium: (0.0, 2.5, 0.0),
+};
 pub(super) const DENSE_AWAY: Example = Example {
     name: "figure-3-all",
     title: "Dense, forward (g 0.85), turned away",

@@ -1,7 +1,7 @@
 //! The densities beside what they stand for, from the oracle.
 
 use super::Figure;
-use crate::report::canvas::{self, Line};
+use crate::report::canvas;
 use crate::report::drawing::Drawing;
 use crate::report::examples::{self, Example, brief, normalised};
 use crate::report::palette;
@@ -59,7 +59,11 @@ fn drawing(example: &Example) -> Result<Drawing> {
         let mut legend = Vec::new();
         for (place, &strategy) in Strategy::ALL.iter().enumerate() {
             let density = |t: f64| scene.pdf(strategy, t);
-            canvas.line((0..=POINTS).map(t).map(|t| (t, density(t))), palette::colour(strategy), Line::Solid)?;
+            canvas.line(
+                (0..=POINTS).map(t).map(|t| (t, density(t))),
+                palette::colour(strategy),
+                palette::line(strategy),
+            )?;
             // Markers apart from each other, where lines run together.
             let spots = (0..5).map(|spot| t((9 * spot + place + 1) * POINTS / 46));
             for t in spots.filter(|&t| density(t) > 0.0 && density(t) < top) {
