@@ -47,7 +47,7 @@ const EXIT_CODES: &str = "\
 Exit codes:
   0  done
   1  a promise is broken (accuracy, soak)
-  2  anything else that fails; one line on standard error says what";
+  2  any other failure; one line on standard error says which";
 
 /// Subcommands by what they are for, as help lists them.
 const GROUPS: [(&str, &[&str]); 2] = [

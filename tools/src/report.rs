@@ -29,7 +29,7 @@ use std::path::{Path, PathBuf};
     after_help = "Examples:\n  airlight report --out report --quick               half a minute on two cores\n  airlight report --strategies docs/strategies"
 )]
 pub(crate) struct Args {
-    /// Folder of the page index.html, of its figures as .svg and .png, and of their data as .json
+    /// Folder to write: the page index.html, its figures as .svg and .png, their data as .json
     #[arg(long, value_name = "DIR", required_unless_present = "strategies")]
     out: Option<PathBuf>,
     /// Draw the plots of the documentation's page of Strategy into this folder, and measure nothing
@@ -38,16 +38,16 @@ pub(crate) struct Args {
     /// Fewer scenes, rays and rounds: about half a minute
     #[arg(long)]
     quick: bool,
-    /// Scenes of every set of which variances are taken [default: 2000, or 400 with --quick]
+    /// Scenes of each set, for the variances [default: 2000, or 400 with --quick]
     #[arg(long, value_name = "SCENES", value_parser = arguments::positive)]
     scenes: Option<usize>,
-    /// Generic rays of which errors are taken [default: 1048576, or 65536 with --quick]
+    /// Rays of the family generic, for the errors [default: 1048576, or 65536 with --quick]
     #[arg(long, value_name = "RAYS", value_parser = arguments::positive)]
     rays: Option<usize>,
-    /// Samples of the wavefront, with each strategy [default: 16000000, or 524288 with --quick]
+    /// Samples of the wavefront with each strategy [default: 16000000, or 524288 with --quick]
     #[arg(long, value_name = "SAMPLES", value_parser = arguments::positive)]
     samples: Option<usize>,
-    /// Rays of a batch that is timed, may be repeated [default: as of `airlight profile`]
+    /// Rays per batch that is timed, may be repeated [default: as in `airlight profile`]
     #[arg(long, value_name = "RAYS", value_parser = arguments::batch)]
     batch: Vec<usize>,
     /// Rounds of timing [default: 9, or 3 with --quick]
@@ -56,7 +56,7 @@ pub(crate) struct Args {
     /// Precision to measure, exact or fast, may be repeated [default: both]; figures of one precision show the first
     #[arg(long, value_name = "NAME")]
     precision: Vec<Precision>,
-    /// Measure the kernels of a shared library as well, as of `airlight profile`; may be repeated
+    /// Also measure the kernels of a shared library, as in `airlight profile`; may be repeated
     #[arg(long, value_name = "[BACKEND=]LIBRARY.so")]
     peers: Vec<String>,
 }

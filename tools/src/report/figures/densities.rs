@@ -11,7 +11,7 @@ use airlight_tools::contender::PRODUCTS;
 use anyhow::Result;
 
 /// Points of a curve.
-const POINTS: usize = 400;
+const POINTS: usize = 200;
 
 const EXAMPLES: [Example; 4] = [examples::THIN, examples::THIN_AWAY, examples::DENSE, examples::DENSE_AWAY];
 
