@@ -65,7 +65,7 @@ impl fmt::Display for Precision {
     }
 }
 
-/// The error of parsing a [`Precision`]: the text is the name of none.
+/// The error of parsing a [`Precision`]: the text names no precision.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnknownPrecision(String);
 

@@ -233,7 +233,7 @@ impl fmt::Display for Strategy {
     }
 }
 
-/// The error of parsing a [`Strategy`]: the text is the name of none.
+/// The error of parsing a [`Strategy`]: the text names no strategy.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnknownStrategy(String);
 

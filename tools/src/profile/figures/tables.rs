@@ -46,8 +46,8 @@ a number at the head of a column: rays per batch";
 const OF_TIMES: &str = "a sample writes t and pdf; a number at the head of a column: rays per batch
 +- %: largest deviation of a round from the median; Msamples/s: the best of the row
 limit: the limit of the machine that is nearest; %: the share of the time that it alone would take";
-const OF_STAGES: &str = "a stage: the time up to its end less the time up to its start. Such a part of a kernel writes
-its results to memory; the whole kernel keeps them in registers, so stages are approximate
+const OF_STAGES: &str = "a stage: a run that stops at its end, less a run that stops at its start. Such runs write to
+memory what the whole kernel keeps in registers, so stages are approximate
 total: t and pdf; weight: also weight and r; 8 per ray: a sample where 8 share the set-up of a ray";
 const OF_CALLS: &str = "a number at the head of a column: rays of one call of Sampler::sample, which writes t and pdf
 one: one call of Sampler::sample_one, which also has weight and r";
