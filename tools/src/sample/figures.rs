@@ -150,7 +150,7 @@ impl fmt::Display for Figures {
             writeln!(f, "[0], [1], ...: the channels of the medium")?;
         }
         writeln!(f, "quadrature: the oracle's value of the estimate, from which it is z standard errors away")?;
-        writeln!(f, "CDF: |CDF(t) - u| on the same rays, exceeded by 0.1 % of them, and the maximum")
+        writeln!(f, "CDF: the 99.9 % quantile and the maximum of |CDF(t) - u| on the same rays")
     }
 }
 
