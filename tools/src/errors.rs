@@ -570,7 +570,7 @@ fn relative_light(scene: &Scene) -> f64 {
     let signed_cosine = |t: f64| (scene.alpha() * scene.h() + scene.beta() * (t - scene.t_h())) / scene.r(t);
     let light = match scene.lit() {
         Some((a, b)) => most_light(scene, a, b) / scene.angle(t_min, t_max),
-        // Dark by the normal: without one every interval that is none is lit.
+        // Dark by the normal: without one every interval that is not empty is lit.
         None if t_min < t_max => -signed_cosine(t_min).max(signed_cosine(t_max)),
         None => 1.0,
     };

@@ -72,7 +72,7 @@ fn main() -> ExitCode {
     let command = match command() {
         Ok(command) => command,
         Err(error) if error.kind() == ErrorKind::ValueValidation => {
-            // A refused value is told in one line, like any other bad input.
+            // A refused value is reported in one line, like any other bad input.
             let told = error.to_string();
             eprintln!("{}", told.lines().next().unwrap_or_default());
             return ExitCode::from(FAILURE);

@@ -74,7 +74,7 @@ pub(crate) struct Args {
     /// Count instructions per ray with valgrind, and measure no time
     #[arg(long, conflicts_with_all = ["rays", "threads", "rounds", "quick", "peers"])]
     instructions: bool,
-    /// Only draw samples, so many batches of them: what is counted by --instructions
+    /// Only draw samples, for this many batches: --instructions counts this process
     #[arg(long, hide = true, requires_all = ["strategy", "precision", "backend"])]
     batches: Option<usize>,
     #[command(flatten)]

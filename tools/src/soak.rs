@@ -22,7 +22,7 @@ use std::time::{Duration, Instant};
 const BROKEN: u8 = 1;
 /// Rounds between two looks at the clock.
 const STEP: u64 = 32;
-/// Failures that are told in words.
+/// Failures that are printed.
 const TOLD: usize = 20;
 /// Rays of a round that are compared with the oracle.
 const COMPARED: usize = 64;
