@@ -9,7 +9,7 @@
 //! - [`command`]: the command line.
 
 // Markdown takes the first definition of a link. `links.md` links to items of the documentation; the definitions at the end of each
-// page link to files, for readers of the repository.
+// page link to files, for readers of the repository. So it is with images: those of `images.md` have the image in them (`build.rs`).
 
 #[doc = include_str!("guide/links.md")]
 #[doc = include_str!("../docs/choosing.md")]
@@ -24,10 +24,12 @@ pub mod embedding {}
 pub mod accuracy {}
 
 #[doc = include_str!("guide/links.md")]
+#[cfg_attr(doc, doc = include_str!(concat!(env!("OUT_DIR"), "/images.md")))]
 #[doc = include_str!("../docs/speed.md")]
 pub mod speed {}
 
 #[doc = include_str!("guide/links.md")]
+#[cfg_attr(doc, doc = include_str!(concat!(env!("OUT_DIR"), "/images.md")))]
 #[doc = include_str!("../docs/mathematics.md")]
 pub mod mathematics {}
 

@@ -1,4 +1,5 @@
 #![doc = include_str!("guide/links.md")]
+#![cfg_attr(doc, doc = include_str!(concat!(env!("OUT_DIR"), "/images.md")))]
 #![doc = include_str!("../README.md")]
 //!
 //! # Modules

@@ -26,9 +26,9 @@ use std::str::FromStr;
 /// | pdf at a given `t`, 99 % of rays | ordinary scenes | 8 ulp | 32 ulp |
 /// | pdf at a given `t`, 99.9 % of rays | ordinary scenes | | 1e-4, relative |
 /// | pdf at a given `t`, 99.99 % of rays | ordinary scenes | 64 ulp | |
-/// | taken for lit or dark wrongly | all families | none | where the light is below 1e-5 of that of an emitter faced squarely |
+/// | rays wrongly taken for lit or dark | all families | none | where the light is below 1e-5 of that of an emitter faced squarely |
 ///
-/// In both precisions the pdf is that of the density that is sampled, so that an estimate of your own integrand is unbiased, but
+/// In both precisions the pdf is that of the density that is sampled, so that an estimate of your own integrand is unbiased, except
 /// for light that is misjudged. Weights also have the error of the integrand, in `Fast` 3e-7 of the optical depth.
 ///
 /// # Arithmetic
@@ -71,7 +71,7 @@ impl fmt::Display for Precision {
     }
 }
 
-/// The error of parsing a [`Precision`]: the text is the name of none.
+/// The error of parsing a [`Precision`]: the text names no precision.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnknownPrecision(String);
 

@@ -124,8 +124,7 @@ impl Sampler {
     /// as among the variates of one ray. The inverse is monotone: it maps every interval of `u` to an interval of `t` with the
     /// same probability.
     ///
-    /// Outputs are 0 for an empty or invalid ray. A variate outside `[0, 1]` makes its sample
-    /// invalid. At u = 0 and 1 a density
+    /// Outputs are 0 for an empty or invalid ray. A variate outside `[0, 1]` makes its sample invalid. At `u` = 0 and 1 a density
     /// that vanishes there is sampled next to the end.
     ///
     /// # Accuracy

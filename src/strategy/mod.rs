@@ -19,7 +19,7 @@ use std::str::FromStr;
 ///
 /// - **Density**: symbols and equations are those of [mathematics]; numbers without a point are equations of the paper
 ///   (Villeneuve et al. 2021).
-/// - **Cost**: nanoseconds per sample, one thread of an AMD EPYC (Zen 3) with AVX2, batches of 65,536 rays, `t` and `pdf`
+/// - **Cost**: time per sample on one thread of an AMD EPYC (Zen 3) with AVX2, for batches of 65,536 rays, with `t` and `pdf`
 ///   written. [speed](crate::guide::speed) has other outputs and instruction sets.
 ///
 ///   ```sh
@@ -36,13 +36,13 @@ use std::str::FromStr;
 /// For a spot, product densities have the falloff `S` in place of the cosine `N`. The others but `Transmittance` are those of an
 /// emitter without a normal, on the part of the ray inside the cone.
 ///
-/// # Densities beside the integrand
+/// - **Plot**: the density (line) beside the integrand (area), both with the integral 1, and the `V` of that ray. The emitter is
+///   0.5 m beside the ray, at `t` 1.6 m, and turns away from the start of the ray; the medium is thin and scatters evenly, or is
+///   dense and scatters forward. The nearer the line is to the area, the smaller is `V`.
 ///
-/// All densities beside the integrand (grey, normalised), in dense fog that scatters forward (`mu_s` 1.5 per m, `g` 0.85), with an
-/// emitter 0.5 m beside the ray that turns away. The nearer a density is to the integrand, the smaller is `V`.
-/// `cargo run --release -- report --out report --quick` draws it, and three easier scenes.
-///
-#[doc = include_str!("../../docs/figure-3.svg")]
+///   ```sh
+///   cargo run --release -- report --strategies docs/strategies
+///   ```
 ///
 /// [mathematics]: crate::guide::mathematics
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -54,10 +54,12 @@ pub enum Strategy {
     /// p_t = mu_t exp(-mu_t (t - t_min)) / (1 - exp(-mu_t (t_max - t_min)))    t_min <= t <= t_max     (3.1)
     /// ```
     ///
+    #[doc = include_str!("../../docs/strategies/transmittance.svg")]
+    ///
     /// | | |
     /// |---|---|
     /// | use | to combine with another density (multiple importance sampling): it knows no emitter, and so misses no other light |
-    /// | cost | 6.2; 5.2 with 8 samples per ray |
+    /// | cost | 6.2 ns; 5.2 with 8 samples per ray |
     /// | variance | median 1.9, p99 without bound, near an emitter 17 |
     /// | equations | [3.1](crate::guide::mathematics#31-transmittance) |
     Transmittance,
@@ -67,11 +69,13 @@ pub enum Strategy {
     /// p_t = h / (Theta r^2)    Theta: the angle that the lit part subtends                            (3.3)
     /// ```
     ///
+    #[doc = include_str!("../../docs/strategies/equi-angular.svg")]
+    ///
     /// | | |
     /// |---|---|
     /// | use | point emitters in thin media with `abs(g)` below 0.3, where the sampler shows in a profile |
-    /// | cost | 10, in fast precision 7.0; 4.8 with 8 samples per ray |
-    /// | variance | median 0.38, p99 7e4, near an emitter 1.2; what `T`, `rho` and `N` vary stays in the weight |
+    /// | cost | 10 ns, in fast precision 7.0; 4.8 with 8 samples per ray |
+    /// | variance | median 0.38, p99 7e4, near an emitter 1.2; the variation of `T`, `rho` and `N` stays in the weight |
     /// | equations | [3.2](crate::guide::mathematics#32-equi-angular), Kulla and Fajardo (2012) |
     EquiAngular,
     /// Proportional to `N/r^2`; of an emitter without a normal the equi-angular density.
@@ -80,10 +84,12 @@ pub enum Strategy {
     /// p_t = N h / (mass r^2)    mass: the integral of N over the angle                                (3.10)
     /// ```
     ///
+    #[doc = include_str!("../../docs/strategies/point-normal.svg")]
+    ///
     /// | | |
     /// |---|---|
     /// | use | surfaces that emit, in thin media with `abs(g)` below 0.3, where the sampler shows in a profile |
-    /// | cost | 11, in fast precision 8.7; 6.2 with 8 samples per ray |
+    /// | cost | 11 ns, in fast precision 8.7; 6.2 with 8 samples per ray |
     /// | variance | median 0.16, p99 7e8, near an emitter 1.4; bounded by that of `T` and `rho`, which vary little in thin media |
     /// | equations | [3.3](crate::guide::mathematics#33-point-normal), (21) |
     PointNormal,
@@ -94,10 +100,12 @@ pub enum Strategy {
     /// P: exp(-mu_t h (tan theta + sec theta - 1)) to order 6 about theta = 0, trusted up to theta_c
     /// ```
     ///
+    #[doc = include_str!("../../docs/strategies/taylor-transmittance.svg")]
+    ///
     /// | | |
     /// |---|---|
-    /// | use | to compare with the paper: a product density costs less and varies less in all but single cases |
-    /// | cost | 30; 17 with 8 samples per ray |
+    /// | use | to compare with the paper: a product density costs less and has a smaller variance, except in single scenes |
+    /// | cost | 30 ns; 17 with 8 samples per ray |
     /// | variance | median 0.084, p99 7e8, near an emitter 0.73 |
     /// | equations | [4](crate::guide::mathematics#4-taylor-densities): 4.1, 4.2, 4.5; (4)-(11), (21)-(30) |
     TaylorTransmittance,
@@ -108,10 +116,12 @@ pub enum Strategy {
     /// P: (1 + g^2 + 2 g sin theta)^(-3/2) to order 6 about theta = 0, trusted up to theta_c; theta mirrored for g < 0
     /// ```
     ///
+    #[doc = include_str!("../../docs/strategies/taylor-phase.svg")]
+    ///
     /// | | |
     /// |---|---|
-    /// | use | to compare with the paper: a product density costs less and varies less in all but single cases |
-    /// | cost | 27; 17 with 8 samples per ray |
+    /// | use | to compare with the paper: a product density costs less and has a smaller variance, except in single scenes |
+    /// | cost | 27 ns; 17 with 8 samples per ray |
     /// | variance | median 0.033, p99 7e8, near an emitter 0.18 |
     /// | equations | [4](crate::guide::mathematics#4-taylor-densities): 4.3-4.5; (13)-(30) |
     TaylorPhase,
@@ -120,10 +130,12 @@ pub enum Strategy {
     /// The density is that of [`Product5`](Self::Product5) with 3 knots. In a coloured medium it is that of the
     /// [mean](crate::Medium::mean).
     ///
+    #[doc = include_str!("../../docs/strategies/product-3.svg")]
+    ///
     /// | | |
     /// |---|---|
     /// | use | seldom: `Product5` costs 1 ns more |
-    /// | cost | 18; 6.8 with 8 samples per ray |
+    /// | cost | 18 ns; 6.8 with 8 samples per ray |
     /// | variance | median 0.013, p99 0.25, near an emitter 7.1e-3 |
     /// | equations | [5](crate::guide::mathematics#5-the-half-angle-variable), [6](crate::guide::mathematics#6-the-product-density) |
     Product3,
@@ -138,10 +150,12 @@ pub enum Strategy {
     ///
     /// In a coloured medium it is the mixture (9.1) of the densities of the channels.
     ///
+    #[doc = include_str!("../../docs/strategies/product-5.svg")]
+    ///
     /// | | |
     /// |---|---|
-    /// | use | the default: one sample per ray and emitter, and all media. In four rendered scenes, shadows included, it is 1.5 to 11 times as efficient as `EquiAngular` at equal time (`airlight render --compare`) |
-    /// | cost | 19; 7.4 with 8 samples per ray |
+    /// | use | the default: one sample per ray and emitter, and all media. In four rendered scenes, shadows included, it is 1.5 to 38 times as efficient as `EquiAngular` ([choosing](crate::guide::choosing#strategies)) |
+    /// | cost | 19 ns; 7.4 with 8 samples per ray |
     /// | variance | median 0.0021, p99 0.022, near an emitter 6.7e-4 |
     /// | equations | [5](crate::guide::mathematics#5-the-half-angle-variable), [6](crate::guide::mathematics#6-the-product-density), [9](crate::guide::mathematics#9-colour); our derivation |
     #[default]
@@ -150,10 +164,12 @@ pub enum Strategy {
     ///
     /// The density is that of [`Product5`](Self::Product5) with 9 knots, also in a coloured medium.
     ///
+    #[doc = include_str!("../../docs/strategies/product-9.svg")]
+    ///
     /// | | |
     /// |---|---|
     /// | use | several samples per ray and emitter in one call: they share the set-up |
-    /// | cost | 25; 8.9 with 8 samples per ray |
+    /// | cost | 25 ns; 8.9 with 8 samples per ray |
     /// | variance | median 2.4e-4, p99 3.6e-3, near an emitter 5.2e-5 |
     /// | equations | [5](crate::guide::mathematics#5-the-half-angle-variable), [6](crate::guide::mathematics#6-the-product-density), [9](crate::guide::mathematics#9-colour) |
     Product9,
@@ -162,10 +178,12 @@ pub enum Strategy {
     /// The density is that of [`Product5`](Self::Product5) with 17 knots. In a coloured medium it is that of the
     /// [mean](crate::Medium::mean).
     ///
+    #[doc = include_str!("../../docs/strategies/product-17.svg")]
+    ///
     /// | | |
     /// |---|---|
-    /// | use | many samples per ray, without shadows: with shadows more knots than 5 gain less than 5 % or nothing |
-    /// | cost | 38; 13 with 8 samples per ray |
+    /// | use | many samples per ray, without shadows: with shadows it is no better than `Product9` |
+    /// | cost | 38 ns; 13 with 8 samples per ray |
     /// | variance | median 2.2e-5, p99 1.2e-3, near an emitter 4.5e-6 |
     /// | equations | [5](crate::guide::mathematics#5-the-half-angle-variable), [6](crate::guide::mathematics#6-the-product-density) |
     Product17,
@@ -215,7 +233,7 @@ impl fmt::Display for Strategy {
     }
 }
 
-/// The error of parsing a [`Strategy`]: the text is the name of none.
+/// The error of parsing a [`Strategy`]: the text names no strategy.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnknownStrategy(String);
 

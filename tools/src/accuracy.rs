@@ -170,17 +170,17 @@ fn legend(name: &str) -> &'static str {
     match name {
         "cdf" => "|CDF(t) - u|",
         "cdf_resolved" => "the same where half an ulp of t changes the CDF by 2^-18 at most",
-        "cdf_floor" => "what exact arithmetic, rounded to f32 once, has for cdf; on every 16th ray",
+        "cdf_floor" => "cdf of exact arithmetic that is rounded to f32 once; on every 16th ray",
         "cdf_at_t" => "how far Sampler::cdf at t is from the CDF there, beyond what 2^-44 of the distances change it",
         "cdf_beyond_t" => "how far u is from the CDFs of all distances that round to t",
-        "offset" => "distance from the nearer end of the interval, beyond the rounding of t [ulp]",
-        "offset_floor" => "what exact arithmetic on geometry rounded to f32 has for offset; on every 16th ray [ulp]",
-        "pdf" => "density at t [ulp]",
-        "pdf_floor" => "what exact arithmetic on geometry rounded to f32 has for pdf; on every 16th ray [ulp]",
-        "r" => "distance to the emitter, beyond the rounding of t, or of u to 2^-20 [ulp]",
-        "integrand" => "integrand at t, where h, from the emitter to the line, is at least 1e-7 of the distance [ulp]",
+        "offset" => "error of the distance from the nearer end of the interval, beyond the rounding of t [ulp]",
+        "offset_floor" => "offset of exact arithmetic on geometry that is rounded to f32; on every 16th ray [ulp]",
+        "pdf" => "error of the density at t [ulp]",
+        "pdf_floor" => "pdf of exact arithmetic on geometry that is rounded to f32; on every 16th ray [ulp]",
+        "r" => "error of the distance to the emitter, beyond the rounding of t, or of u to 2^-20 [ulp]",
+        "integrand" => "error of the integrand at t, where h is at least 1e-7 of the distance to the emitter [ulp]",
         "integrand_near" => "the same where h is less [ulp]",
-        "weight" => "weight, relative, beyond the rounding of t, or of u to 2^-20; on every 16th ray",
+        "weight" => "relative error of the weight, beyond the rounding of t, or of u to 2^-20; on every 16th ray",
         _ => "",
     }
 }
@@ -217,7 +217,7 @@ impl fmt::Display for Figures {
         let printed = |name: &str| self.0.iter().flat_map(Row::printed).any(|kind| kind.name == name);
         let kinds: Vec<&str> = Errors::default().lists().map(|(name, _)| name).into();
         if kinds.iter().any(|name| printed(name)) {
-            writeln!(f, "errors: quantiles over the sampled rays, and the largest")?;
+            writeln!(f, "errors: quantiles over the sampled rays, and the maximum")?;
         }
         for name in kinds.into_iter().filter(|name| printed(name)) {
             writeln!(f, "  {name:14}  {}", legend(name))?;
@@ -225,12 +225,12 @@ impl fmt::Display for Figures {
         writeln!(f, "numbers of rays")?;
         writeln!(f, "  nonfinite       something is NaN or infinite")?;
         writeln!(f, "  out of range    t is outside [t_min, t_max], or something is negative")?;
-        writeln!(f, "  misjudged       sampled with nothing to sample, or the reverse")?;
+        writeln!(f, "  misjudged       sampled although nothing is lit, or not sampled although something is")?;
         writeln!(
             f,
-            "  light           the most of a misjudged ray, over that from an emitter that faces all of it squarely;"
+            "  light           the most light of a misjudged ray, relative to that of an emitter that faces the ray squarely;"
         )?;
-        writeln!(f, "                  of a dark one, how far N is below 0")?;
+        writeln!(f, "                  if the ray is dark, how far N is below 0")?;
         writeln!(f, "  bisected        the iteration fell back to bisection, or took many steps\n")?;
         let broken: usize = self.0.iter().map(|row| row.broken.len()).sum();
         match broken {

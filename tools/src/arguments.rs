@@ -139,7 +139,7 @@ pub(crate) fn minutes(text: &str) -> Result<Duration, String> {
     time(text, 60.0).ok_or_else(|| "expected a number of minutes greater than 0".to_owned())
 }
 
-/// A time in units of so many seconds.
+/// A time in units of this many seconds.
 fn time(text: &str, unit: f64) -> Option<Duration> {
     let number: f64 = text.parse().ok()?;
     Duration::try_from_secs_f64(number * unit).ok().filter(|time| !time.is_zero())

@@ -149,7 +149,7 @@ impl Columns {
         if some.is_empty() { Emitter::point([0.0; 3]).into_iter().collect() } else { some }
     }
 
-    /// Those that are some, of so many channels; at least one.
+    /// The valid media among them, of this many channels; at least one.
     fn media(&self, channels: usize) -> Vec<Medium> {
         let of = |values: [f32; 9]| {
             let [a0, a1, a2, a3, s0, s1, s2, s3, g] = values;

@@ -1,4 +1,4 @@
-//! Kernels in f32 against the oracle in f64: how far off they are, for one sampler on one family.
+//! The errors of the f32 kernels against the f64 oracle, for one sampler on one family.
 
 use crate::families::{CHANNELS, Case, Columns, Family};
 use airlight::oracle::{Coloured, Scene};
@@ -10,7 +10,7 @@ use std::ops::Deref;
 
 /// Rays that are sampled in one call.
 const BATCH: usize = 1 << 14;
-/// Every how many rays the weight and the floors are looked at, which takes the oracle's inverse many times.
+/// Weights and floors are measured once in this many rays, as they need the oracle's inverse many times.
 const WEIGHED: usize = 16;
 /// What counts as vanishing: a density below this share of its mean over the interval, `1/(t_b - t_a)`, and an N below
 /// this value. There errors are in ulp of that share, or of the integrand with this N; those of a weight count by the
@@ -20,7 +20,7 @@ const VANISHING: f64 = 1e-3;
 const VARIATE: f64 = 1.0 / (1 << 20) as f64;
 /// The least share of the mass that the point-normal density leaves between an end, where it may vanish, and a sample.
 const OFF_THE_MASS: f64 = 1e-12;
-/// By this share of the distances in it geometry in f64 may move a point.
+/// Geometry in f64 may move a point by this share of the distances in it.
 const GEOMETRY: f64 = 8.0 * f64::EPSILON;
 /// By this share the ends of the lit interval, which are kept as two f32, may be off.
 const ENDS: f64 = 1.0 / (1u64 << 44) as f64;
@@ -55,21 +55,21 @@ pub struct Errors {
     pub cdf: Vec<f64>,
     /// The same where `t` resolves it: half an ulp of `t` changes the CDF by 2^-18 at most.
     pub cdf_resolved: Vec<f64>,
-    /// What exact arithmetic rounded to f32 once would have for `cdf`, on every 16th ray.
+    /// `cdf` of exact arithmetic that is rounded to f32 once, on every 16th ray.
     pub cdf_floor: Vec<f64>,
-    /// The distance of `u` from the CDF of all that rounds to `t`: by so much `cdf` may exceed what one rounding makes.
+    /// How far `u` is from the CDFs of all distances that round to `t`: what `cdf` has beyond one rounding.
     pub cdf_beyond_t: Vec<f64>,
     /// `Sampler::cdf` at the returned `t` against the CDF there.
     pub cdf_at_t: Vec<f64>,
     /// The distance from the nearer end of the interval against that of the exact inverse, in ulp of it and beyond one
     /// rounding of `t`; of the densities with a closed form over the angle.
     pub offset: Vec<f64>,
-    /// What exact arithmetic would have for `offset` from the geometry rounded to f32 once, on every 16th ray; `h` as for
+    /// `offset` of exact arithmetic on geometry that is rounded to f32 once, on every 16th ray; `h` as for
     /// `integrand`.
     pub offset_floor: Vec<f64>,
     /// The pdf at the returned `t`, in ulp.
     pub pdf: Vec<f64>,
-    /// What exact arithmetic would have for `pdf` from the geometry rounded to f32 once, on the same rays.
+    /// `pdf` of exact arithmetic on geometry that is rounded to f32 once, on the same rays.
     pub pdf_floor: Vec<f64>,
     /// The distance `r` against those of all that rounds to `t`, or against those of the variates within 2^-20 of `u`,
     /// in ulp.
@@ -85,9 +85,9 @@ pub struct Errors {
     pub nonfinite: usize,
     /// Rays with a distance outside `[t_min, t_max]`, or something negative.
     pub out_of_range: usize,
-    /// Rays that were sampled and have nothing to sample, or the reverse.
+    /// Rays sampled although nothing is lit, or not sampled although something is.
     pub misjudged: usize,
-    /// The most light that one of these has, in that from an emitter which faces all of the ray squarely.
+    /// The most light of one of these, relative to that of an emitter that faces the ray squarely.
     pub misjudged_light: f64,
     /// Rays that fell back to bisection.
     pub bisected: usize,
@@ -341,7 +341,7 @@ impl Row {
     }
 }
 
-/// What a ray is held against: the channel that is looked at, with the density that it shares with the others.
+/// What a ray is held against: the channel under test, with the density that it shares with the others.
 struct Truth {
     channel: Scene,
     all: Coloured,
@@ -573,7 +573,7 @@ fn relative_light(scene: &Scene) -> f64 {
     let signed_cosine = |t: f64| (scene.alpha() * scene.h() + scene.beta() * (t - scene.t_h())) / scene.r(t);
     let light = match scene.lit() {
         Some((a, b)) => most_light(scene, a, b) / scene.angle(t_min, t_max),
-        // Dark by the normal: without one every interval that is none is lit.
+        // Dark by the normal: without one every interval that is not empty is lit.
         None if t_min < t_max => -signed_cosine(t_min).max(signed_cosine(t_max)),
         None => 1.0,
     };

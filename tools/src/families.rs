@@ -26,7 +26,7 @@ pub enum Family {
     Cosine,
     /// `g` from -1 to 1, ends included.
     Phase,
-    /// `mu_t` from 0 to 1e4 per m, and media that are none.
+    /// `mu_t` from 0 to 1e4 per m, and invalid media.
     Medium,
     /// Directions and normals that are not quite units, signed zeros, origins far out, fields that are not numbers.
     Ray,
@@ -35,10 +35,10 @@ pub enum Family {
     /// `1 - |g|` from 2^-24 to 1e-3, and the emitter on the ray or next to it.
     Peaks,
     /// Spots: cones of 0 to 90 degrees and of a tenth of a degree, edges hard and soft; apex on the ray or next to it, axes along
-    /// the ray, rays along the side of the cone, and cosines that are none.
+    /// the ray, rays along the side of the cone, and invalid cosines.
     Spot,
     /// Three channels whose `mu_t` differ up to a hundredfold, equal ones and ones that do not scatter among them, and
-    /// coefficients that are none; in a box, next to the emitter, and on infinite rays.
+    /// invalid coefficients; in a box, next to the emitter, and on infinite rays.
     Colour,
 }
 
@@ -111,7 +111,7 @@ impl Family {
     }
 }
 
-/// The name of no family.
+/// The error of parsing a [`Family`]: the text names none.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnknownFamily(String);
 
@@ -130,7 +130,7 @@ impl FromStr for Family {
     }
 }
 
-/// One ray with its emitter, medium and variate, as raw as columns are.
+/// One ray with its emitter, medium and variate, unvalidated as in columns.
 #[derive(Clone, Copy, Debug)]
 pub struct Case {
     origin: Vec3,
@@ -143,7 +143,7 @@ pub struct Case {
     /// -1 without a cone.
     cos_outer: f32,
     cos_inner: f32,
-    /// Of a coloured medium, those of the channel that is looked at.
+    /// In a coloured medium, those of the channel under test.
     mu_a: f32,
     mu_s: f32,
     g: f32,
@@ -155,7 +155,7 @@ pub struct Case {
 /// How many channels coloured media of cases have.
 pub const CHANNELS: usize = 3;
 
-/// The coefficients of all channels, and the one that is looked at.
+/// The coefficients of all channels, and the one under test.
 #[derive(Clone, Copy, Debug)]
 struct Colour {
     mu_a: [f32; CHANNELS],
@@ -184,7 +184,7 @@ impl Case {
         }
     }
 
-    /// The ray, the emitter and the medium, if they are valid; of a coloured medium the channel that is looked at.
+    /// The ray, the emitter and the medium, if they are valid; in a coloured medium the channel under test.
     ///
     /// # Errors
     /// Whatever the constructors find.
@@ -206,7 +206,7 @@ impl Case {
         }
     }
 
-    /// The channel that is looked at; 0 of a grey medium.
+    /// The channel under test; 0 in a grey medium.
     #[must_use]
     pub fn channel(&self) -> usize {
         self.colour.map_or(0, |colour| colour.channel)
@@ -231,7 +231,7 @@ impl Case {
         (self.cos_outer, self.cos_inner) != (NO_CONE, NO_CONE)
     }
 
-    /// The scene of the oracle, if the case is a valid one; of a coloured medium that of the channel that is looked at.
+    /// The scene of the oracle, if the case is a valid one; in a coloured medium that of the channel under test.
     ///
     /// # Errors
     /// As [`parts`](Self::parts).
@@ -603,7 +603,7 @@ impl Columns {
         self.cones.as_ref().map(|cones| cones.each_ref().map(Vec::as_slice))
     }
 
-    /// Their media; of coloured ones the channels that are looked at.
+    /// Their media; of coloured ones the channels under test.
     #[must_use]
     pub fn media(&self) -> Media<'_> {
         let [mu_a, mu_s, g] = self.medium();

@@ -28,14 +28,14 @@ const RAYS: usize = 1 << 16;
 /// The same of rules in scalar code.
 const SCALAR_RAYS: usize = 1 << 12;
 
-/// Compare the integral of the airlight with quadrature, and its time with that of plain rules, on sets of scenes
+/// Compare the integral without a sample with quadrature and with plain rules, on sets of scenes
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  airlight integral --set generic --scenes 8000")]
 pub(crate) struct Args {
     /// Scenes: generic, broad, dense, tame, spot, colour, colour-strong or canonical, may be repeated [default: generic, broad, dense]
     #[arg(long, value_name = "NAME", value_parser = set)]
     set: Vec<Sets>,
-    /// Scenes of a set
+    /// Scenes of each set
     #[arg(long, value_name = "SCENES", default_value = "2000", value_parser = arguments::batch)]
     scenes: usize,
     /// Seed of the scenes

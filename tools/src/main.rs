@@ -47,7 +47,7 @@ const EXIT_CODES: &str = "\
 Exit codes:
   0  done
   1  a promise is broken (accuracy, soak)
-  2  anything else that fails; one line on standard error says what";
+  2  any other failure; one line on standard error says which";
 
 /// Subcommands by what they are for, as help lists them.
 const GROUPS: [(&str, &[&str]); 2] = [
@@ -72,7 +72,7 @@ fn main() -> ExitCode {
     let command = match command() {
         Ok(command) => command,
         Err(error) if error.kind() == ErrorKind::ValueValidation => {
-            // A refused value is told in one line, like any other bad input.
+            // A refused value is reported in one line, like any other bad input.
             let told = error.to_string();
             eprintln!("{}", told.lines().next().unwrap_or_default());
             return ExitCode::from(FAILURE);

@@ -44,13 +44,13 @@ const OF_MANY: Strategy = Strategy::Product9;
 const INTEGRALS: usize = 1 << 16;
 const EMITTERS: usize = 32;
 
-/// Measure how fast every kernel is, its stages apart, beside what the machine allows
+/// Measure the time of every kernel and of its stages, beside the limits of the machine
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Examples:\n  airlight profile --quick\n  airlight profile --rays 65536 --threads 1 --backend avx2"
 )]
 pub(crate) struct Args {
-    /// Rays of a batch, may be repeated [default: 4096, 65536, 1048576, 16777216]
+    /// Rays per batch, may be repeated [default: 4096, 65536, 1048576, 16777216]
     #[arg(long, value_name = "RAYS", value_parser = arguments::batch)]
     rays: Vec<usize>,
     /// Threads to sample with, may be repeated [default: one, and one per core]
@@ -61,20 +61,20 @@ pub(crate) struct Args {
     /// Backend to measure, may be repeated [default: all of this machine, the slower ones on smaller batches]
     #[arg(long, value_name = "NAME", value_parser = arguments::backend)]
     backend: Vec<Backend>,
-    /// Rounds in which all take their turn; reported are medians over these [default: 9, or 3 with --quick]
+    /// Rounds of measurement, in each of which all kernels take their turn; medians are reported [default: 9, or 3 with --quick]
     #[arg(long, value_name = "ROUNDS", value_parser = arguments::positive)]
     rounds: Option<usize>,
     /// Fewer rounds, and batches of 65536 and 1048576 rays unless told otherwise
     #[arg(long)]
     quick: bool,
-    /// Measure the kernels of a shared library as well, beside the backend of their width; may be repeated, once for
-    /// each [default backend: the fastest that is measured]
+    /// Also measure the kernels of a shared library, beside the backend of their width; may be repeated, once for each
+    /// backend [default backend: the fastest that is measured]
     #[arg(long, value_name = "[BACKEND=]LIBRARY.so")]
     peers: Vec<Source>,
     /// Count instructions per ray with valgrind, and measure no time
     #[arg(long, conflicts_with_all = ["rays", "threads", "rounds", "quick", "peers"])]
     instructions: bool,
-    /// Only draw samples, so many batches of them: what is counted by --instructions
+    /// Only draw samples, for this many batches: --instructions counts this process
     #[arg(long, hide = true, requires_all = ["strategy", "precision", "backend"])]
     batches: Option<usize>,
     #[command(flatten)]

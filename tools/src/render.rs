@@ -30,7 +30,7 @@ use std::time::Duration;
 /// Passes, unless told otherwise.
 const PASSES: usize = 64;
 
-/// Render a scene of spheres and planes in fog; or compare the strategies on it
+/// Render a scene of spheres and planes in fog, or compare the strategies on it
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Examples:\n  airlight render --out fog.png                      one picture\n  airlight render --scene spots --spp 256 --out spots.exr\n  airlight render --compare --time 3                 every strategy, for three seconds each"
@@ -41,26 +41,26 @@ pub(crate) struct Args {
     scene: Name,
     #[arg(long, value_name = "NAME", help = format!("Strategy of the distances [default: product-5]; with --compare it may be repeated [default: all of {}]", names()))]
     strategy: Vec<Strategy>,
-    /// Precision of the distances: exact, or fast, with --compare of the strategies that have it
+    /// Precision: exact, or fast, which with --compare leaves out the strategies that do not have it
     #[arg(long, value_name = "NAME", default_value_t)]
     precision: Precision,
-    /// Sample every ray from the transmittance too, and combine the two samples by the balance heuristic
+    /// Take a second sample of every ray from the transmittance, and combine the two by the balance heuristic
     #[arg(long)]
     mis: bool,
-    /// Choice of the light that a ray gathers: uniform, or choose for the integrals with 4 nodes
+    /// Choice of a light for each ray: choose, in proportion to the integrals with 4 nodes, or uniform
     #[arg(long, value_name = "NAME", default_value_t)]
     lights: EmitterChoice,
-    /// Estimate of the scattered light: plain for the mean of the samples that see their light, or ratio for the integral
-    /// times the part of the samples that do [default: plain]; with --compare it may be repeated
+    /// Estimate of the scattered light: plain, the mean of the samples that see their light, or ratio, the integral times the
+    /// share of the samples that do [default: plain]; with --compare it may be repeated
     #[arg(long, value_name = "NAME")]
     shadows: Vec<Shadows>,
-    /// Random numbers of the passes: sobol for an Owen-scrambled Sobol sequence of each pixel, or independent
+    /// Random numbers of the passes: sobol, an Owen-scrambled Sobol sequence for each pixel, or independent
     #[arg(long, value_name = "NAME", default_value_t)]
     variates: Sequence,
     /// Passes, each of which takes one sample of every pixel [default: 64]
     #[arg(long, value_name = "N", value_parser = arguments::positive, conflicts_with = "time")]
     spp: Option<usize>,
-    /// Render whole passes until so many seconds are over
+    /// Render whole passes for this many seconds
     #[arg(long, value_name = "SECONDS", value_parser = arguments::seconds, allow_negative_numbers = true)]
     time: Option<Duration>,
     /// Width and height of the picture in pixels
@@ -72,10 +72,10 @@ pub(crate) struct Args {
     /// Threads to render with, at most 1024 [default: one per core]
     #[arg(long, value_name = "N", value_parser = arguments::threads)]
     threads: Option<usize>,
-    /// Write the picture: linear to an .exr file, through the tone curve to a .png file
+    /// Write the picture: linear as .exr, with a tone curve as .png
     #[arg(long, value_name = "IMAGE")]
     out: Option<PathBuf>,
-    /// Render with each strategy, and each of --shadows, for the same time, or the same number of passes, and report the errors; --out gets
+    /// Render with each strategy and each of --shadows for the same time or number of passes, and report the errors; --out gets
     /// the pictures side by side
     #[arg(long)]
     compare: bool,

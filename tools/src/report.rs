@@ -2,6 +2,7 @@
 
 mod canvas;
 mod drawing;
+mod examples;
 mod figures;
 mod findings;
 mod jobs;
@@ -10,6 +11,7 @@ mod machine;
 mod page;
 mod palette;
 mod scale;
+mod strategies;
 mod summary;
 
 use self::findings::Findings;
@@ -19,28 +21,33 @@ use crate::{arguments, progress};
 use airlight::Precision;
 use anyhow::{Context, Result};
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Measure speed, variance and accuracy, and write a page of figures with their data
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Examples:\n  airlight report --out report --quick               half a minute on two cores")]
+#[command(
+    after_help = "Examples:\n  airlight report --out report --quick               half a minute on two cores\n  airlight report --strategies docs/strategies"
+)]
 pub(crate) struct Args {
-    /// Folder of the page index.html, of its figures as .svg and .png, and of their data as .json
-    #[arg(long, value_name = "DIR")]
-    out: PathBuf,
+    /// Folder to write: the page index.html, its figures as .svg and .png, their data as .json
+    #[arg(long, value_name = "DIR", required_unless_present = "strategies")]
+    out: Option<PathBuf>,
+    /// Draw the plots of the documentation's page of Strategy into this folder, and measure nothing
+    #[arg(long, value_name = "DIR", exclusive = true)]
+    strategies: Option<PathBuf>,
     /// Fewer scenes, rays and rounds: about half a minute
     #[arg(long)]
     quick: bool,
-    /// Scenes of every set of which variances are taken [default: 2000, or 400 with --quick]
+    /// Scenes of each set, for the variances [default: 2000, or 400 with --quick]
     #[arg(long, value_name = "SCENES", value_parser = arguments::positive)]
     scenes: Option<usize>,
-    /// Generic rays of which errors are taken [default: 1048576, or 65536 with --quick]
+    /// Rays of the family generic, for the errors [default: 1048576, or 65536 with --quick]
     #[arg(long, value_name = "RAYS", value_parser = arguments::positive)]
     rays: Option<usize>,
-    /// Samples of the wavefront, with each strategy [default: 16000000, or 524288 with --quick]
+    /// Samples of the wavefront with each strategy [default: 16000000, or 524288 with --quick]
     #[arg(long, value_name = "SAMPLES", value_parser = arguments::positive)]
     samples: Option<usize>,
-    /// Rays of a batch that is timed, may be repeated [default: as of `airlight profile`]
+    /// Rays per batch that is timed, may be repeated [default: as in `airlight profile`]
     #[arg(long, value_name = "RAYS", value_parser = arguments::batch)]
     batch: Vec<usize>,
     /// Rounds of timing [default: 9, or 3 with --quick]
@@ -49,7 +56,7 @@ pub(crate) struct Args {
     /// Precision to measure, exact or fast, may be repeated [default: both]; figures of one precision show the first
     #[arg(long, value_name = "NAME")]
     precision: Vec<Precision>,
-    /// Measure the kernels of a shared library as well, as of `airlight profile`; may be repeated
+    /// Also measure the kernels of a shared library, as in `airlight profile`; may be repeated
     #[arg(long, value_name = "[BACKEND=]LIBRARY.so")]
     peers: Vec<String>,
 }
@@ -61,10 +68,15 @@ impl Args {
     }
 }
 
-/// Measures everything, then writes everything.
 pub(crate) fn run(args: &Args) -> Result<()> {
-    fs::create_dir_all(&args.out).with_context(|| format!("cannot write {}", args.out.display()))?;
-    let file = |name: &str| Target::file(&args.out.join(name));
+    args.strategies.as_deref().map_or(Ok(()), strategies::write)?;
+    args.out.as_deref().map_or(Ok(()), |out| write(args, out))
+}
+
+/// Measures everything, then writes everything.
+fn write(args: &Args, out: &Path) -> Result<()> {
+    fs::create_dir_all(out).with_context(|| format!("cannot write {}", out.display()))?;
+    let file = |name: &str| Target::file(&out.join(name));
     let index = file("index.html")?;
 
     let jobs = Jobs::new(args)?;
@@ -83,6 +95,6 @@ pub(crate) fn run(args: &Args) -> Result<()> {
         file(&format!("{}.png", drawing.name))?.write(&drawing.png()?)?;
     }
     index.write(page::page(&findings, &drawn, &jobs.commands()).as_bytes())?;
-    eprintln!("{}", args.out.join("index.html").display());
+    eprintln!("{}", out.join("index.html").display());
     Ok(())
 }

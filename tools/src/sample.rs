@@ -24,12 +24,12 @@ use std::time::{Duration, Instant};
     after_help = "Examples:\n  airlight sample                                    the built-in wavefront, every strategy\n  airlight sample queue.npz --medium 0.1,0.3,0.6     your own rays, in your own medium\n  airlight sample --strategy product-5 --json -      figures as JSON, on standard output"
 )]
 pub(crate) struct Args {
-    /// Wavefront to sample; with the columns cos_outer and cos_inner its emitters are spots, whose axes are the normals, but
-    /// for those where both are -1 [default: the built-in Cornell box in fog]
+    /// Wavefront to sample; with the columns cos_outer and cos_inner its emitters are spots along their normals, except where
+    /// both are -1 [default: the built-in Cornell box in fog]
     #[arg(value_name = "WAVEFRONT.npz")]
     wavefront: Option<PathBuf>,
-    /// Medium: absorption and scattering coefficient [1/m] and mean cosine; r:g:b for a coefficient makes it one of three
-    /// channels (and four numbers one of four), whose radiances are reported one by one, as 0.1,0.2:0.3:0.5,0.6
+    /// Medium: absorption and scattering coefficient [1/m], mean cosine; a coefficient may be three or four numbers, one for each
+    /// channel, as in 0.1,0.2:0.3:0.5,0.6, and the radiance of each channel is then reported
     #[arg(long, value_name = "MU_A,MU_S,G", default_value = "0.1,0.3,0.6", allow_hyphen_values = true)]
     #[arg(value_parser = arguments::medium)]
     medium: Medium,
@@ -38,20 +38,20 @@ pub(crate) struct Args {
     rays: usize,
     #[arg(long, value_name = "NAME", help = format!("Strategy to run, may be repeated [default: all of {}]", names()))]
     strategy: Vec<Strategy>,
-    /// Precision of the samplers: exact, or fast, of the strategies that have it
+    /// Precision: exact, or fast, which leaves out the strategies that do not have it
     #[arg(long, value_name = "NAME", default_value_t)]
     precision: Precision,
     /// Rays of the wavefront to compare with quadrature
     #[arg(long, value_name = "RAYS", default_value_t = 4096)]
     check: usize,
-    /// Seed of the variates of all repetitions but the first, whose variates are the wavefront's own
+    /// Seed of the variates; the first repetition has the wavefront's own
     #[arg(long, default_value_t = 0)]
     seed: u64,
     /// Threads to sample with, at most 1024 [default: one per core]
     #[arg(long, value_name = "N", value_parser = arguments::threads)]
     threads: Option<usize>,
-    /// Write the columns t, pdf and weight of the first repetition, weight_0, weight_1, ... of a medium of several channels;
-    /// takes exactly one --strategy
+    /// Write the columns t, pdf and weight (weight_0, weight_1, ... of several channels) of the first repetition; needs
+    /// exactly one --strategy
     #[arg(long, value_name = "FILE.npz")]
     output: Option<PathBuf>,
     #[command(flatten)]

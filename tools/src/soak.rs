@@ -22,23 +22,26 @@ use std::time::{Duration, Instant};
 const BROKEN: u8 = 1;
 /// Rounds between two looks at the clock.
 const STEP: u64 = 32;
-/// Failures that are told in words.
+/// Failures that are printed.
 const TOLD: usize = 20;
 /// Rays of a round that are compared with the oracle.
 const COMPARED: usize = 64;
 /// The figures of `airlight accuracy` that no single ray may exceed, whatever its family.
 const FIGURES: [&str; 4] = ["nonfinite", "out_of_range", "cdf_beyond_t_max", "cdf_at_t_max"];
 
-/// Try random batches in all forms on all backends against what is promised; exit with 1 if a promise is broken
+/// Check all promises on random batches, in all forms, on all backends; exit with 1 if one is broken
 #[derive(Debug, clap::Args)]
+#[command(
+    after_help = "Examples:\n  airlight soak --minutes 10 --seed 7\n  airlight soak --seed 7 --first 1234 --rounds 1     one round again"
+)]
 pub(crate) struct Args {
-    /// How long
+    /// Minutes to run
     #[arg(long, value_name = "MINUTES", default_value = "1", value_parser = arguments::minutes)]
     minutes: Duration,
-    /// So many rounds, however long they take
+    /// Rounds to run, in place of --minutes
     #[arg(long, value_name = "ROUNDS", conflicts_with = "minutes")]
     rounds: Option<u64>,
-    /// The first round, to repeat one
+    /// Number of the first round, to repeat one that failed
     #[arg(long, value_name = "ROUND", default_value_t = 0)]
     first: u64,
     /// Seed of the rounds
@@ -109,12 +112,12 @@ impl fmt::Display for Figures {
         writeln!(f, "seed {seed}, {rounds} rounds: {rays} rays, {failures} failures")?;
         writeln!(
             f,
-            "  results     {results}: values of a call on a backend, compared with those of the other backends with"
+            "  results     {results} values: finite, in range, the same for the batch in two parts, and the same on all"
         )?;
-        writeln!(f, "              fused multiply-add and of the batch in two parts, and finite and in range")?;
+        writeln!(f, "              backends with fused multiply-add")?;
         writeln!(
             f,
-            "  compared    {compared} rays with the oracle: |CDF - u| and the error of cdf, within their bounds"
+            "  compared    {compared} rays with the oracle: |CDF(t) - u| and the error of cdf are within their bounds"
         )
     }
 }

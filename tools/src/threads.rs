@@ -19,7 +19,7 @@ pub fn one_and_all() -> Vec<usize> {
     if all == 1 { vec![1] } else { vec![1, all] }
 }
 
-/// How long a pool takes to do `work` so many times, without the way into the pool.
+/// How long a pool takes to do `work` this many times, without the way into the pool.
 pub fn time<R>(pool: &ThreadPool, times: u64, mut work: impl FnMut() -> R + Send) -> Duration {
     pool.install(|| {
         let start = Instant::now();

@@ -28,12 +28,12 @@ pub(crate) struct Args {
     /// Scenes: broad, generic, dense, tame, spot, colour, colour-strong, canonical, or the rays of a wavefront
     #[arg(long, value_name = "NAME|FILE.npz", default_value = "broad", conflicts_with = "adversarial")]
     set: Source,
-    /// Medium of the rays of a wavefront: absorption and scattering coefficient [1/m] and mean cosine; r:g:b for a
-    /// coefficient gives it three channels, of whose variances the mean is taken
+    /// Medium of the rays of a wavefront: absorption and scattering coefficient [1/m], mean cosine; a coefficient may be three
+    /// numbers, r:g:b, and the variance is then the mean over the channels
     #[arg(long, value_name = "MU_A,MU_S,G", default_value = "0.1,0.3,0.6", allow_hyphen_values = true)]
     #[arg(value_parser = arguments::medium, conflicts_with = "adversarial")]
     medium: Medium,
-    /// Scenes of the set, or climbs of the search [default: 2000, or 256]
+    /// Scenes of the set, or climbs of --adversarial [default: 2000, or 256]
     #[arg(long, value_name = "SCENES", value_parser = arguments::positive)]
     scenes: Option<usize>,
     /// Seed of the scenes
@@ -41,7 +41,7 @@ pub(crate) struct Args {
     seed: u64,
     #[arg(long, value_name = "NAME", help = format!("Density to measure, may be repeated [default: all of {}]", names()))]
     strategy: Vec<Contender>,
-    /// Precision: exact alone, as variances are those of the densities by quadrature in f64 and take no samples
+    /// Precision: only exact, as the variance of a density is computed by quadrature in f64, without samples
     #[arg(long, value_name = "NAME", default_value_t)]
     precision: Precision,
     /// Search for the scenes on which the product densities do worst, by climbing from random ones

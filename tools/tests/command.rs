@@ -597,10 +597,12 @@ fn where_there_is_no_light_there_is_no_z_and_no_minus_zero() {
 #[test]
 fn a_table_says_what_its_columns_are() {
     let table = succeed(&["sample", "--rays", "1000", "--check", "10"]);
-    for word in ["sampled, ", "empty", "invalid", "bisected: ", "radiance: ", "+-: ", "z: "] {
+    for word in
+        ["sampled: ", "empty: ", "invalid: ", "bisected: ", "radiance: ", "estimate: ", "+-: ", "quadrature: ", "CDF: "]
+    {
         assert!(table.lines().any(|line| line.contains(word) && line.contains(": ")), "{word}: {table}");
     }
-    assert!(table.ends_with("estimate, quadrature, z and CDF, which is |CDF(t) - u|: on 10 of the rays\n"), "{table}");
+    assert!(table.contains("on 10 of the rays"), "{table}");
 }
 
 #[test]

@@ -58,13 +58,13 @@ impl fmt::Display for Figures {
             }
             writeln!(f, "{}", table::text(&table))?;
         }
-        writeln!(f, "\nerrors: against quadrature in f64, where f32 has the radiance with all its digits")?;
-        writeln!(f, "nodes: evaluations of the integrand for a ray")?;
+        writeln!(f, "\nerrors: relative to quadrature in f64, where f32 has all digits of the radiance")?;
+        writeln!(f, "nodes: evaluations of the integrand per ray")?;
         writeln!(f, "airlight: the integral of the library; ns per ray: one thread, geometry included")?;
         writeln!(
             f,
-            "steps-in-angle, steps-in-t: the middles of equal steps; gauss-in-angle: Gauss and Legendre's rule there"
+            "steps-in-angle, steps-in-t: midpoints of equal steps; gauss-in-angle: Gauss and Legendre's rule in the angle"
         )?;
-        writeln!(f, "f64: scalar code without the geometry: compare its errors, and its times with each other")
+        writeln!(f, "f64: plain scalar code without the geometry; its times compare only with each other")
     }
 }

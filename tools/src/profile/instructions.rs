@@ -68,7 +68,7 @@ fn instructions(sampler: &Sampler, backend: Backend, batches: usize) -> Result<i
     collected.filter(|_| output.status.success()).with_context(|| format!("valgrind failed:\n{told}"))
 }
 
-/// Draws a sample for each ray of so many batches.
+/// Draws a sample for each ray of this many batches.
 pub(super) fn sample(samplers: &[Sampler], backends: &[Backend], batches: usize) -> Result<()> {
     let mut workload = Workload::new(RAYS);
     let pool = threads::pool(1).context("cannot start a thread")?;

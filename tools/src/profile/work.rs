@@ -10,7 +10,7 @@ use anyhow::Result;
 use rayon::ThreadPool;
 use std::hint::black_box;
 
-/// Samples that a measurement of batches takes at least: so many that the clock resolves their time.
+/// Samples that a measurement of batches takes at least, so that the clock resolves their time.
 pub(super) const LEAST: usize = 1 << 16;
 /// Calls that a measurement of calls takes at most.
 const CALLS: usize = 1 << 12;
@@ -31,7 +31,7 @@ impl Kernel {
 /// Something that is done to a batch.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Work<'a> {
-    /// All of a kernel, with so many samples per ray.
+    /// All of a kernel, with this many samples per ray.
     Sample { kernel: Kernel, per_ray: usize, wanted: Wanted },
     /// The kernel up to a stage.
     UpTo { kernel: Kernel, stage: Stage },
@@ -45,11 +45,11 @@ pub(super) enum Work<'a> {
     OneByOne(Kernel),
     /// The integral of each ray.
     Radiance(Integral),
-    /// A choice among so many emitters for each ray.
+    /// A choice among this many emitters for each ray.
     Choose(Integral, usize),
 }
 
-/// Work of the threads of a pool on so many samples.
+/// Work of the threads of a pool on this many samples.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Contestant<'a> {
     pub(super) work: Work<'a>,

@@ -14,7 +14,7 @@ pub(super) const STEPS: usize = 1000;
 /// When a picture is done.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Budget {
-    /// After so many passes.
+    /// After this many passes.
     Passes(u64),
     /// After the pass during which the time is over.
     Time(Duration),

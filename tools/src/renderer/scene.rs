@@ -63,7 +63,7 @@ pub enum Shape {
 }
 
 impl Scene {
-    /// The part of the light, red, green and blue, that a way of so many metres leaves.
+    /// The part of the light, red, green and blue, that is left after this many metres.
     #[must_use]
     pub fn transmittance(&self, distance: f32) -> Vec3 {
         let of = |medium: Medium| (-medium.mu_t() * distance).exp();

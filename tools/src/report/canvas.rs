@@ -1,6 +1,6 @@
 //! What figures are drawn on: two axes, and lines, areas, markers and names by their quantities.
 
-use super::drawing::Drawing;
+use super::drawing::{Drawing, FINE};
 use super::labels::{Area, beside};
 use super::palette::{self, AREA, Colour, GRID, GROUND, INK, QUIET};
 use super::scale::Scale;
@@ -16,8 +16,6 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, IntoFont, RGBColor, ShapeStyle, TRANSPARENT, TextStyle};
 use std::iter::once;
 
-/// The drawing's units for one of a page: coordinates are whole numbers of them.
-const FINE: i32 = 4;
 /// As narrow as a telephone, so that letters need not shrink there.
 const WIDTH: i32 = 520 * FINE;
 const LETTERS: i32 = 16 * FINE;
@@ -71,7 +69,7 @@ pub(super) fn draw(
             .margin(MARGIN)
             .margin_right(RIGHT)
             .set_label_area_size(LabelAreaPosition::Left, LEFT)
-            .set_label_area_size(LabelAreaPosition::Bottom, BELOW);
+            .set_label_area_size(LabelAreaPosition::Bottom, if x.title.is_empty() { BELOW / 2 } else { BELOW });
         let mut chart = builder.build_cartesian_2d(x.clone(), y.clone()).map_err(failed)?;
         chart
             .configure_mesh()
@@ -88,13 +86,11 @@ pub(super) fn draw(
         draw(&mut canvas)?;
         canvas.root.present().map_err(failed)?;
     }
-    // As wide as a page has it, and told to those who do not see it.
-    let size = format!("width=\"{WIDTH}\" height=\"{whole}\"");
-    let shown = format!("width=\"{}\" height=\"{}\" role=\"img\" aria-label=\"{title}\"", WIDTH / FINE, whole / FINE);
-    let svg = svg.replacen(&size, &shown, 1);
+    // The elements alone, without the tags around them.
+    let content = svg.split_once('>').map_or("", |(_, content)| content).trim().trim_end_matches("</svg>");
     let edge = format!("stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\"", GROUND.hex(), 5 * FINE);
-    let svg = svg.replace("<text ", &format!("<text paint-order=\"stroke\" {edge} "));
-    Ok(Drawing { name: name.to_owned(), title: title.to_owned(), svg })
+    let content = content.replace("<text ", &format!("<text paint-order=\"stroke\" {edge} "));
+    Ok(Drawing { name: name.to_owned(), title: title.to_owned(), size: (WIDTH, whole), content })
 }
 
 fn failed(error: impl std::fmt::Display) -> anyhow::Error {
@@ -174,15 +170,16 @@ impl Canvas<'_> {
         Ok(())
     }
 
-    /// A text that ends at a point, above it; none if it is not between the axes.
-    pub(super) fn say(&mut self, text: &str, point: (f64, f64)) -> Result<()> {
+    /// A text above a point, which is at its left or its right end; none if it is not between the axes.
+    pub(super) fn say(&mut self, text: &str, point: (f64, f64), end: HPos) -> Result<()> {
         let (x, y) = self.place(point);
         if !((self.x.from..=self.x.to).contains(&x) && (self.y.from..=self.y.to).contains(&y)) {
             return Ok(());
         }
         let (x, y) = self.chart.backend_coord(&(x, y));
-        self.taken.push(Area([x - length(text), y - LETTERS, x, y]));
-        self.write(text, (x, y - FINE), QUIET, Pos::new(HPos::Right, VPos::Bottom))
+        let left = if matches!(end, HPos::Left) { x } else { x - length(text) };
+        self.taken.push(Area([left, y - LETTERS, left + length(text), y]));
+        self.write(text, (x, y - FINE), QUIET, Pos::new(end, VPos::Bottom))
     }
 
     /// No name goes on the upright line between two points.

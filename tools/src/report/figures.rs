@@ -3,13 +3,14 @@
 mod accuracy;
 mod convergence;
 mod densities;
-mod efficiency;
 mod integral;
+mod noise;
+mod overview;
 mod throughput;
 
 use super::drawing::Drawing;
 use super::findings::Findings;
-use airlight::Strategy;
+use airlight::{Precision, Strategy};
 use anyhow::Result;
 
 /// Ticks of the time of a sample \[ns\].
@@ -22,16 +23,29 @@ pub(super) struct Figure {
     pub(super) drawings: Vec<Drawing>,
 }
 
-/// All of them.
+/// A sampler's time and what is shown against it.
+#[derive(Clone, Copy, Debug)]
+struct Point {
+    strategy: Strategy,
+    precision: Precision,
+    place: (f64, f64),
+}
+
+/// All of them: that of the first screen, then the others.
 pub(super) fn all(findings: &Findings<'_>) -> Result<Vec<Figure>> {
     Ok(vec![
-        efficiency::figure(findings)?,
-        accuracy::figure(findings)?,
+        overview::figure(findings)?,
+        noise::figure(findings)?,
         densities::figure()?,
         throughput::figure(findings)?,
         convergence::figure(findings)?,
         integral::figure(findings)?,
     ])
+}
+
+/// One thread, two threads.
+fn counted(threads: usize) -> String {
+    format!("{threads} {}", if threads == 1 { "thread" } else { "threads" })
 }
 
 /// The legend of lines.

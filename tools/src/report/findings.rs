@@ -136,7 +136,8 @@ impl<'a> Findings<'a> {
         let of_batch =
             |row: &&Row| (row.subject.backend, row.subject.rays) == (Some(self.backend.name()), Some(self.batch));
         let other = |row: &Row| {
-            let name = format!("peer {}", row.subject.peer?);
+            // All that are Taylor densities are of the transmittance.
+            let name = format!("peer {}", row.subject.peer?.replace("taylor-transmittance", "taylor"));
             Some(Other { name, ns_per_sample: row.ns_per_sample?, cdf_p999: row.cdf_p999? })
         };
         self.measured.profile.0.iter().filter(of_batch).filter_map(other).collect()

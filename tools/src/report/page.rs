@@ -21,8 +21,10 @@ pub(super) fn page(findings: &Findings<'_>, figures: &[Figure], commands: &[&str
         ("version", env!("CARGO_PKG_VERSION").to_owned()),
         ("command", escape(&format!("airlight {}", command.join(" ")))),
         ("commands", lines),
+        ("answer", escape(&summary::answer(findings))),
         ("summary", summary::table(&findings.all)),
-        ("figures", figures.iter().enumerate().map(|(i, figure)| article(i + 1, figure)).collect()),
+        ("overview", figures.iter().take(1).map(|figure| article(1, figure)).collect()),
+        ("figures", figures.iter().enumerate().skip(1).map(|(i, figure)| article(i + 1, figure)).collect()),
     ];
     filled.into_iter().fold(PAGE.to_owned(), |page, (name, text)| page.replace(&format!("{{{{{name}}}}}"), &text))
 }
@@ -34,9 +36,10 @@ fn article(number: usize, figure: &Figure) -> String {
         let (name, title) = (&drawing.name, escape(&drawing.title));
         let _ = writeln!(
             markup,
-            "<div class=\"drawing\"><h3>{title}</h3>\n{}\n<p class=\"files\"><a href=\"{name}.svg\">SVG</a> <a \
+            "<div class=\"drawing\">{}\n{}\n<p class=\"files\"><a href=\"{name}.svg\">SVG</a> <a \
              href=\"{name}.png\">PNG</a></p></div>",
-            drawing.svg
+            if figure.drawings.len() > 1 { format!("<h3>{title}</h3>") } else { String::new() },
+            drawing.svg()
         );
     }
     let _ = writeln!(markup, "</div>\n<figcaption>{}</figcaption>\n</figure>", escape(&figure.caption));

@@ -1,6 +1,8 @@
 //! One colour and one marker per strategy in all figures: no two share both a hue and a shape.
 
+use super::canvas::Line;
 use airlight::{Precision, Strategy};
+use airlight_tools::contender::PRODUCTS;
 use plotters::style::RGBColor;
 
 /// A colour on light and on dark ground.
@@ -62,6 +64,15 @@ fn index(strategy: Strategy) -> usize {
 
 pub(super) fn colour(strategy: Strategy) -> Colour {
     STRATEGIES[index(strategy)]
+}
+
+/// How its line is drawn: the densities of the paper are dashed, those of the whole integrand bold.
+pub(super) fn line(strategy: Strategy) -> Line {
+    match strategy {
+        Strategy::TaylorTransmittance | Strategy::TaylorPhase => Line::Dashed,
+        _ if PRODUCTS.contains(&strategy) => Line::Bold,
+        _ => Line::Solid,
+    }
 }
 
 /// What its marker is filled with: its colour, in fast precision the ground.

@@ -107,9 +107,9 @@ impl fmt::Display for Figures {
         writeln!(f, "\n{}\n", table::text(&speed))?;
         writeln!(
             f,
-            "sampled, empty, invalid: samples with a distance, of rays of which nothing is lit, of invalid rays"
+            "sampled: samples with a distance; empty: samples of rays on which nothing is lit; invalid: of invalid rays"
         )?;
-        writeln!(f, "bisected: of the sampled, those whose iteration fell back to bisection, or took many steps")?;
+        writeln!(f, "bisected: samples whose iteration fell back to bisection, or took many steps")?;
         if let Some(invalid) = &self.invalid_rays {
             writeln!(f, "{invalid}")?;
         }
@@ -144,13 +144,13 @@ impl fmt::Display for Figures {
         writeln!(f, "\n{}\n", table::text(&radiance))?;
         writeln!(
             f,
-            "radiance: mean weight [1/m^2], that of an invalid ray is 0; +-: standard errors, the second by the oracle"
+            "radiance: mean weight [1/m^2], 0 for an invalid ray; estimate: the same on {checked} of the rays; +-: standard errors"
         )?;
         if self.results.iter().any(|row| row.channel.is_some()) {
             writeln!(f, "[0], [1], ...: the channels of the medium")?;
         }
-        writeln!(f, "z: (estimate - quadrature) / standard error")?;
-        writeln!(f, "estimate, quadrature, z and CDF, which is |CDF(t) - u|: on {checked} of the rays")
+        writeln!(f, "quadrature: the oracle's value of the estimate, from which it is z standard errors away")?;
+        writeln!(f, "CDF: the 99.9 % quantile and the maximum of |CDF(t) - u| on the same rays")
     }
 }
 

@@ -62,11 +62,14 @@ impl fmt::Display for Worsts {
                 None => writeln!(f, "nothing is lit")?,
             }
         }
-        writeln!(f, "\nthe largest relative variance of one sample that was found, and the scene that has it")?;
+        writeln!(f, "\nthe largest relative variance of a sample that was found, and its scene")?;
         writeln!(
             f,
-            "h: from the emitter to the ray's line; t_h: from the ray's start to the point nearest to the emitter"
+            "h: distance from the emitter to the line of the ray; t_h: distance along the ray of the point nearest to the emitter"
         )?;
-        writeln!(f, "beta, alpha: the emitter's normal along the ray, and towards it")
+        writeln!(
+            f,
+            "beta, alpha: components of the emitter's normal along the ray, and from the emitter towards the ray"
+        )
     }
 }

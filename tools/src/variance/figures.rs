@@ -76,13 +76,13 @@ impl fmt::Display for Figures {
         }
         writeln!(
             f,
-            "\nV: variance of one sample's weight over the square of its mean; median to max: of V over the scenes"
+            "\nV: variance of a sample's weight, divided by the square of its mean; median to max: over the scenes"
         )?;
-        writeln!(f, "precision: by quadrature in f64; samplers of any precision sample these densities")?;
+        writeln!(f, "precision: V is computed by quadrature in f64; the density is the same in every precision")?;
         writeln!(f, "above 1: share of the scenes with V > 1")?;
         writeln!(
             f,
-            "invalid: scenes whose density is no number, or 0 where there is light; they count for nothing else"
+            "invalid: scenes where the density is not a number, or is 0 where there is light; no other column has them"
         )
     }
 }

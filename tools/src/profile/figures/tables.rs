@@ -15,9 +15,9 @@ impl fmt::Display for Figures {
             let of_these: Vec<&Row> = rows.iter().filter(|row| row.subject.threads == threads).collect();
             let counted = counted(threads);
             section(f, &format!("limits of arithmetic, {counted} [1e9/s]"), &limits(&of_these), OF_LIMITS)?;
-            let title = format!("limits of memory by rays of a batch, {counted} [GB/s]");
+            let title = format!("limits of memory, by rays per batch, {counted} [GB/s]");
             section(f, &title, &memory(&of_these), OF_MEMORY)?;
-            let title = format!("time of a sample by rays of a batch, {counted} [ns]");
+            let title = format!("time of a sample, by rays per batch, {counted} [ns]");
             section(f, &title, &times(&of_these), OF_TIMES)?;
         }
         let times = |row: &&Row| row.ratio.is_none() && row.subject.strategy.is_some();
@@ -30,7 +30,7 @@ impl fmt::Display for Figures {
             }
         }
         let fastest = rows.iter().find(|row| row.ns_per_call.is_some()).and_then(|row| row.subject.backend);
-        let title = format!("time of a call by its rays, 1 thread, {} [ns]", fastest.unwrap_or("-"));
+        let title = format!("time of a call, by its rays, 1 thread, {} [ns]", fastest.unwrap_or("-"));
         section(f, &title, &calls(&staged), OF_CALLS)?;
         section(f, "few rays, many variates: time of a sample [ns]", &many_variates(&staged), OF_MANY_VARIATES)?;
         section(f, "the integral, 1 thread [ns]", &integrals(rows), OF_INTEGRALS)?;
@@ -40,22 +40,28 @@ impl fmt::Display for Figures {
     }
 }
 
-const OF_LIMITS: &str = "operations of one lane, by all threads";
-const OF_MEMORY: &str = "read: the columns that a sample reads; write: t and pdf; stream: both";
-const OF_TIMES: &str = "t and pdf; +- %: how far the farthest round of a row is from its median; Msamples/s: at best
-limit: what the kernel is nearest to, and the share of its time that this alone would take";
-const OF_STAGES: &str =
-    "stages: differences of runs up to their ends; these write to memory what the whole has in registers
-total: t and pdf; weight: weight and r as well; 8 per ray: where 8 samples share a set-up";
-const OF_CALLS: &str = "a number: sample, of t and pdf, with so many rays; one: sample_one, of weight and r as well";
-const OF_MANY_VARIATES: &str = "rays x variates of each: t and pdf of one call";
-const OF_INTEGRALS: &str = "nodes: the integral of a ray; choose: of a ray and emitter, among 32 with 4 nodes";
-const OF_ERRORS: &str = "what 0.1 % of rays exceed in |CDF(t) - u|; ours is in airlight accuracy";
-const OF_PORTABLE: &str = "time with the portable backend over that with this one";
-const OF_THREADS: &str = "time with one thread over that with several, by samples of a batch";
-const OF_COSTS: &str =
-    "time over that of equi-angular of the same precision with one sample per ray, by samples of a batch";
-const OF_OTHERS: &str = "time of what stands after the colon over that of what stands before, by samples of a batch";
+const OF_LIMITS: &str = "f32 operations per second: all lanes of the vectors, all threads";
+const OF_MEMORY: &str = "read: the columns that a sample reads; write: t and pdf; stream: both
+a number at the head of a column: rays per batch";
+const OF_TIMES: &str = "a sample writes t and pdf; a number at the head of a column: rays per batch
++- %: largest deviation of a round from the median; Msamples/s: the best of the row
+limit: the limit of the machine that is nearest; %: the share of the time that it alone would take";
+const OF_STAGES: &str = "a stage: a run that stops at its end, less a run that stops at its start. Such runs write to
+memory what the whole kernel keeps in registers, so stages are approximate
+total: t and pdf; weight: also weight and r; 8 per ray: a sample where 8 share the set-up of a ray";
+const OF_CALLS: &str = "a number at the head of a column: rays of one call of Sampler::sample, which writes t and pdf
+one: one call of Sampler::sample_one, which also has weight and r";
+const OF_MANY_VARIATES: &str = "one call writes t and pdf for all variates of all rays";
+const OF_INTEGRALS: &str = "N nodes: Integral::radiance, per ray
+choose: Integral::choose among 32 emitters with 4 nodes, per ray and emitter";
+const OF_ERRORS: &str = "0.1 % of rays have a larger |CDF(t) - u|; airlight accuracy measures ours";
+const OF_PORTABLE: &str = "time with the portable backend, divided by the time with the backend of the column";
+const OF_THREADS: &str = "time with one thread, divided by the time with several
+a number at the head of a column: samples per batch";
+const OF_COSTS: &str = "time, divided by that of equi-angular in the same precision with one sample per ray
+a number at the head of a column: samples per batch";
+const OF_OTHERS: &str = "A : B is the time of B divided by the time of A, so that A is faster above 1
+a number at the head of a column: samples per batch";
 
 fn counted(threads: usize) -> String {
     format!("{threads} {}", if threads == 1 { "thread" } else { "threads" })

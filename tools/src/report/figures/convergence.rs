@@ -1,12 +1,13 @@
 //! Error of the radiance against time.
 
-use super::{Figure, names};
+use super::{Figure, counted, names};
 use crate::report::canvas::{self, Line};
 use crate::report::findings::Findings;
 use crate::report::palette::{self, QUIET};
 use crate::report::scale::{Scale, around, times};
 use airlight::Strategy;
 use anyhow::Result;
+use plotters::style::text_anchor::HPos;
 
 /// Time that is looked at \[s\].
 const TIME: (f64, f64) = (1e-3, 1e2);
@@ -35,7 +36,7 @@ pub(super) fn figure(findings: &Findings<'_>) -> Result<Figure> {
     let drawing = canvas::draw("figure-5", "Error of the radiance against time", (400, 5), (x, y), |canvas| {
         for &(strategy, error) in &errors {
             let line = [TIME.0, TIME.1].map(|time| (time, at(error, time)));
-            canvas.line(line.into_iter(), palette::colour(strategy), Line::Solid)?;
+            canvas.line(line.into_iter(), palette::colour(strategy), palette::line(strategy))?;
             for time in MARKED {
                 canvas.marker(strategy, (time, at(error, time)))?;
             }
@@ -43,7 +44,11 @@ pub(super) fn figure(findings: &Findings<'_>) -> Result<Figure> {
         if let Some(error) = of_resampling {
             let line = [TIME.0, TIME.1].map(|time| (time, at(error, time)));
             canvas.line(line.into_iter(), QUIET, Line::Dashed)?;
-            canvas.say(&format!("dashed: {}", resampled.name()), (0.9 * TIME.1, 0.5 * highest))?;
+            canvas.say(
+                &format!("dashed without markers: {}", resampled.name()),
+                (0.9 * TIME.1, 0.5 * highest),
+                HPos::Right,
+            )?;
         }
         canvas.legend(&names())
     })?;
@@ -56,11 +61,11 @@ pub(super) fn figure(findings: &Findings<'_>) -> Result<Figure> {
     Ok(Figure {
         title: "Error of the radiance against time",
         caption: format!(
-            "{told}Root-mean-square error of the mean radiance of the wavefront {}, {} threads; lines of slope -1/2 from \
-             the standard errors and times of {} samples each, in {} precision. Dashed is the {}, one of which is chosen in \
+            "{told}Root-mean-square error of the mean radiance of the wavefront {}, {}; lines of slope -1/2 from \
+             the standard errors and times of {} samples each, in {} precision. Dashed without markers is the {}, one of which is chosen in \
              proportion to f/p.",
             sample.wavefront,
-            sample.threads,
+            counted(sample.threads),
             sample.rays,
             findings.precision,
             resampled.name()

@@ -38,7 +38,7 @@ pub(super) fn figure(findings: &Findings<'_>) -> Result<Figure> {
     let rows = &findings.measured.integral.0;
     let rules = RULES.map(|rule| points(rows, rule));
     let all = || rules.iter().flatten();
-    let x = Scale::logarithmic("time of a ray [ns]", around(all().map(|point| point.time), 2.0), &TIMES);
+    let x = Scale::logarithmic("time of a ray [ns]", around(all().map(|point| point.time), 3.6), &TIMES);
     // In f64 medians are far below what f32 has digits for: their lines leave the figure.
     let errors = all().map(|point| point.p99).chain(rules[0].iter().map(|point| point.median));
     let y = Scale::decades("relative error", around(errors, 4.0));

@@ -1,6 +1,6 @@
 //! Throughput by size of batch, threads and backend, beside the limits of the machine.
 
-use super::{Figure, names};
+use super::{Figure, counted, names};
 use crate::profile::Row;
 use crate::report::canvas::{self, Line};
 use crate::report::drawing::Drawing;
@@ -9,6 +9,7 @@ use crate::report::palette::{self, QUIET};
 use crate::report::scale::{Scale, around};
 use airlight::{Backend, Strategy};
 use anyhow::Result;
+use plotters::style::text_anchor::HPos;
 
 const SPEEDS: [f64; 12] = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0, 5000.0];
 const TITLE: &str = "million samples / s";
@@ -38,7 +39,7 @@ pub(super) fn figure(findings: &Findings<'_>) -> Result<Figure> {
     Ok(Figure {
         title: "Throughput and the limits of the machine",
         caption: format!(
-            "{nearest}The dashed line is memory: reading and writing the columns of the samples and nothing else. The \
+            "{nearest}The dashed line without markers is memory: reading and writing the columns of the samples and nothing else. The \
              last drawing is of one thread and batches of {} rays; at its right is what arithmetic alone would \
              allow the fastest backend, {}. All are in {} precision.",
             findings.batch,
@@ -64,15 +65,14 @@ fn by_batch(findings: &Findings<'_>, threads: usize) -> Result<Drawing> {
     let sizes: Vec<f64> = memory.iter().map(|(rays, _)| *rays).collect();
     let x = Scale::logarithmic("rays of a batch", around(sizes.iter().copied(), 1.7), &sizes);
     let y = Scale::logarithmic(TITLE, around(points().map(|(_, speed)| speed), 1.5), &SPEEDS);
-    let counted = format!("{threads} {}", if threads == 1 { "thread" } else { "threads" });
-    let title = format!("Throughput by size of the batch, {counted}");
+    let title = format!("Throughput by size of the batch, {}", counted(threads));
     canvas::draw(&format!("figure-4-threads-{threads}"), &title, (340, 5), (x, y), |canvas| {
         canvas.line(memory.iter().copied(), QUIET, Line::Dashed)?;
         if let Some(&last) = memory.last() {
-            canvas.say("memory", last)?;
+            canvas.say("memory", last, HPos::Right)?;
         }
         for &strategy in Strategy::ALL {
-            canvas.line(of(strategy).into_iter(), palette::colour(strategy), Line::Solid)?;
+            canvas.line(of(strategy).into_iter(), palette::colour(strategy), palette::line(strategy))?;
             for point in of(strategy) {
                 canvas.marker(strategy, point)?;
             }

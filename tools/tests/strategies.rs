@@ -1,0 +1,60 @@
+//! The plots on the documentation's page of `Strategy`.
+
+use airlight::Strategy;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+use tempfile::TempDir;
+
+/// The repository.
+fn root() -> &'static Path {
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
+}
+
+fn committed(strategy: Strategy) -> String {
+    fs::read_to_string(root().join(format!("docs/strategies/{strategy}.svg"))).unwrap()
+}
+
+/// The whole numbers of a drawing, and what is between them.
+fn parts(drawing: &str) -> (Vec<i32>, Vec<&str>) {
+    let digit = |c: char| c.is_ascii_digit();
+    let numbers = drawing.split(|c| !(digit(c) || c == '-')).filter_map(|number| number.parse().ok());
+    (numbers.collect(), drawing.split(|c| digit(c) || c == '-').filter(|text| !text.is_empty()).collect())
+}
+
+#[test]
+fn plots_are_what_the_command_draws() {
+    let folder = TempDir::new().unwrap();
+    let out = folder.path().join("new/folder");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_airlight"));
+    let output = command.args(["report", "--strategies", out.to_str().unwrap()]).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    for &strategy in Strategy::ALL {
+        let drawn = fs::read_to_string(out.join(format!("{strategy}.svg"))).unwrap();
+        let committed = committed(strategy);
+        let ((numbers, texts), (committed_numbers, committed_texts)) = (parts(&drawn), parts(&committed));
+        // Backends without fused multiply-add may round a coordinate to the next tenth of a pixel.
+        let close = numbers.iter().zip(&committed_numbers).all(|(a, b)| (a - b).abs() <= 1);
+        assert!(close && numbers.len() == committed_numbers.len() && texts == committed_texts, "{strategy}:\n{drawn}");
+    }
+}
+
+#[test]
+fn plots_are_small_well_formed_and_follow_the_theme_of_their_page() {
+    for &strategy in Strategy::ALL {
+        let svg = committed(strategy);
+        assert!(svg.len() < 6000, "{strategy}: {} bytes", svg.len());
+        // Markdown ends a block of markup at an empty line.
+        assert!(!svg.contains("\n\n"), "{strategy}");
+        let document = roxmltree::Document::parse(&svg).unwrap();
+        assert_eq!(document.root_element().attribute("fill"), Some("currentColor"), "{strategy}");
+    }
+}
+
+#[test]
+fn every_strategy_shows_its_plot() {
+    let source = fs::read_to_string(root().join("src/strategy/mod.rs")).unwrap();
+    let shown = source.split("docs/strategies/").skip(1).filter_map(|rest| rest.split_once(".svg\")]"));
+    let names = Strategy::ALL.iter().map(|strategy| strategy.name());
+    assert_eq!(shown.map(|(name, _)| name).collect::<Vec<_>>(), names.collect::<Vec<_>>());
+}
