@@ -8,7 +8,7 @@ use airlight_tools::batch::{Columns, FORMS, push};
 use airlight_tools::bounds::bounds;
 use airlight_tools::errors::Errors;
 use airlight_tools::families::{self, Case, Family};
-use airlight_tools::promises::{Choices, Kept};
+use airlight_tools::promises::{Again, Choices, Kept};
 use airlight_tools::{samplers, variates};
 use anyhow::Result;
 use rayon::prelude::*;
@@ -162,15 +162,16 @@ impl Round {
         let choices = Choices { table, weights };
         let (form, cut) = (self.below(FORMS as u64) as usize, self.below(n as u64) as usize);
         let batch = columns.batch(form, |n| self.below(n));
+        let again = Again::Everywhere { cut };
         let place = |broken: String| {
             let name = if mixed { "all families" } else { family.name() };
             format!("{name}, {n} rays, {per_ray} variates each, form {form}: {broken}")
         };
         let results: Kept = [
-            batch.hold_sample(&sampler, cut),
-            batch.hold_densities(&sampler, cut),
-            batch.hold_radiance(&integral, cut),
-            batch.hold_choose(&integral, &choices, cut),
+            batch.hold_sample(&sampler, again),
+            batch.hold_densities(&sampler, again),
+            batch.hold_radiance(&integral, again),
+            batch.hold_choose(&integral, &choices, again),
         ]
         .into_iter()
         .sum();
