@@ -48,7 +48,8 @@ impl Random {
         [(); 3].map(|()| self.between(-5.0, 5.0)).map(|x| if whole { x.round() } else { x })
     }
 
-    fn unit(&mut self, whole: bool) -> [f32; 3] {
+    /// A vector of length 1, along an axis if `whole`.
+    pub fn unit(&mut self, whole: bool) -> [f32; 3] {
         let v = self.point(false);
         if whole {
             let axis = self.below(3) as usize;
