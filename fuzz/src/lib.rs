@@ -96,8 +96,13 @@ pub fn choose(data: &[u8]) {
 /// # Panics
 /// If a call panics or writes beside its columns.
 pub fn c(data: &[u8]) {
-    Structs::new(Bytes(data), FLOATS).call();
+    if !NAKED {
+        Structs::new(Bytes(data), FLOATS).call();
+    }
 }
+
+/// Miri knows no naked functions, as the entries of the C ABI are where there is one.
+const NAKED: bool = cfg!(all(miri, any(target_arch = "x86_64", target_arch = "aarch64")));
 
 /// Floats of the memory in which the columns of the C ABI lie.
 const FLOATS: usize = 1 << 11;
@@ -171,7 +176,8 @@ mod tests {
         for seed in seeds.into_iter().step_by(if cfg!(miri) { 40 } else { 1 }) {
             let mut data = std::fs::read(&seed).unwrap();
             println!("{}", seed.display());
-            for (strategy, again) in (0..18).flat_map(|strategy| (0..6).map(move |again| (strategy, again))) {
+            let again = if cfg!(miri) { 0..1 } else { 0..6 };
+            for (strategy, again) in (0..18).flat_map(|strategy| again.clone().map(move |again| (strategy, again))) {
                 (data[3], data[4], data[5], data[6]) = (strategy / 2, strategy % 2, strategy, again);
                 TARGETS[..4].iter().for_each(|(_, target)| target(&data));
             }
