@@ -78,3 +78,49 @@ pub(crate) fn solve<I: Isa>(
     }
     Root { x, bisected }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simd::Portable;
+    use std::cell::Cell;
+
+    /// Solves `f(x) = 0` in `[low, high]` from `start`: the root, whether the lane is counted, and how many steps it took.
+    fn root(f: impl Fn(f32) -> [f32; 3], [low, high]: [f32; 2], start: f32, tolerance: f32) -> (f32, bool, usize) {
+        let (isa, steps) = (Portable, Cell::new(0));
+        let c = |x| isa.splat(x);
+        let at = |x: <Portable as Isa>::V| {
+            let values = f(x.to_array()[0]);
+            steps.set(steps.get() + usize::from(values[0].abs() > tolerance));
+            let [value, slope, curvature] = values.map(c);
+            At { value, slope, curvature }
+        };
+        let root = solve(isa, at, [c(low), c(high)], c(start), c(tolerance), !none(isa));
+        (root.x.to_array()[0], <Portable as Isa>::V::bits(root.bisected) & 1 == 1, steps.get())
+    }
+
+    /// A slope that is too large by a factor leaves a share of the distance to the root at every step: no step leaves the bracket,
+    /// and there are as many as one likes.
+    #[test]
+    fn a_lane_of_more_than_eight_steps_is_counted() {
+        let mut lengths = [0; 2];
+        for share in 1..70 {
+            let slope = 1.0 / (1.0 - 0.01 * share as f32);
+            let (x, counted, steps) = root(|x| [x - 0.25, slope, 0.0], [0.0, 1.0], 1.0, 1e-3);
+            assert!((0.25..1.0).contains(&x), "{x} after {steps} steps");
+            assert_eq!(counted, steps > FEW_STEPS, "{steps} steps");
+            for (count, few) in lengths.iter_mut().zip([FEW_STEPS, FEW_STEPS + 1]) {
+                *count += usize::from(steps == few);
+            }
+        }
+        assert!(lengths.iter().all(|&count| count > 0), "none of 8 or none of 9 steps: {lengths:?}");
+    }
+
+    /// Where the slope leads out of the bracket, half of it is left.
+    #[test]
+    fn a_step_that_leaves_the_bracket_is_a_bisection_and_counted() {
+        let (x, counted, _) = root(|x| [x - 0.25, 1e-9, 0.0], [0.0, 1.0], 1.0, 1e-6);
+        assert!(counted && (x - 0.25).abs() <= 1e-6, "{x}");
+        assert_eq!(root(|x| [x - 0.25, 1.0, 0.0], [0.0, 1.0], 1.0, 1e-6), (0.25, false, 1));
+    }
+}

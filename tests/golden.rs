@@ -1,29 +1,76 @@
 //! The bits of results, as they were: a change of bits fails here. If it is meant, it is marked **values** in the changelog,
-//! and `tests/golden/bits.txt` takes the lines that this test prints.
+//! and the file in `tests/golden` takes the lines that this test prints.
 //!
-//! A line is the hash of everything that a sampler gives for one batch (`tests/dependent`): `fused` on backends with fused
-//! multiply-add, of which all give the same bits, `plain` on others.
+//! `bits.txt`: a line is the hash of everything that a sampler gives for one large batch (`tests/dependent`); `forms.txt`: of all
+//! that a sampler or an integral gives for small batches of hard values in every form that a call takes (`airlight_tools::room`).
+//! `fused` are backends with fused multiply-add, of which all give the same bits, `plain` the others.
 
 #[allow(dead_code, unreachable_pub, reason = "it is a crate of its own")]
 #[path = "dependent/src/lib.rs"]
 mod dependent;
 
+use airlight::{Backend, Integral, Nodes, Precision};
 use airlight_tools::backends::distinct;
+use airlight_tools::batch::{Batch, FORMS};
+use airlight_tools::promises::Choices;
+use airlight_tools::room::{self, Random};
 use airlight_tools::samplers;
 use dependent::{Columns, everything};
 
+fn rounding(backend: Backend) -> &'static str {
+    if backend.is_fused() { "fused" } else { "plain" }
+}
+
+fn unchanged(lines: &[String], golden: &str) {
+    let golden: Vec<&str> = golden.lines().collect();
+    let changed = lines.iter().filter(|line| !golden.contains(&line.as_str())).count();
+    assert_eq!(changed, 0, "{changed} of {} lines differ:\n{}", lines.len(), lines.join("\n"));
+}
+
 #[test]
-fn bits_are_what_they_were() {
+fn bits_of_a_large_batch_are_what_they_were() {
     let columns = Columns::new();
     let mut lines = Vec::new();
     for backend in distinct() {
-        let rounding = if backend.is_fused() { "fused" } else { "plain" };
         for sampler in samplers::all().map(|sampler| sampler.with_backend(backend)) {
             let hash = everything(&columns, &sampler).unwrap();
-            lines.push(format!("{rounding} {} {} {hash:016x}", sampler.strategy(), sampler.precision()));
+            lines.push(format!("{} {} {} {hash:016x}", rounding(backend), sampler.strategy(), sampler.precision()));
         }
     }
-    let golden: Vec<&str> = include_str!("golden/bits.txt").lines().collect();
-    let changed: Vec<&String> = lines.iter().filter(|line| !golden.contains(&line.as_str())).collect();
-    assert!(changed.is_empty(), "{} of {} lines differ:\n{}", changed.len(), lines.len(), lines.join("\n"));
+    unchanged(&lines, include_str!("golden/bits.txt"));
+}
+
+/// A batch of every form, and a few emitters to choose from.
+fn batches() -> Vec<(Batch, Choices)> {
+    let batch = |form: usize| {
+        let mut random = Random::new(form as u64);
+        let (n, per_ray) = (1 + random.below(70) as usize, [1, 1, 2, 7][form % 4]);
+        let mut columns = room::columns(&mut random, n, per_ray);
+        room::spoil(&mut columns, &mut random, 128);
+        let table: Vec<_> = columns.emitters().into_iter().take(5).collect();
+        let weights = table.iter().map(|_| random.pick(&[0.0, 0.5, 3.0])).collect();
+        (columns.batch(form, |n| random.below(n)), Choices { table, weights })
+    };
+    (0..FORMS).map(batch).collect()
+}
+
+#[test]
+fn bits_of_every_form_are_what_they_were() {
+    let batches = batches();
+    let mut lines = Vec::new();
+    for backend in distinct() {
+        let mut add = |name: String, hash: &dyn Fn(&(Batch, Choices)) -> u64| {
+            let hash = batches.iter().map(hash).fold(0, |sum: u64, hash| sum.rotate_left(1) ^ hash);
+            lines.push(format!("{} {name} {hash:016x}", rounding(backend)));
+        };
+        for sampler in samplers::all().map(|sampler| sampler.with_backend(backend)) {
+            let name = format!("{} {}", sampler.strategy(), sampler.precision());
+            add(name, &|(batch, _)| batch.hash_of_sampler(&sampler));
+        }
+        for (&nodes, &precision) in Nodes::ALL.iter().flat_map(|nodes| Precision::ALL.iter().map(move |p| (nodes, p))) {
+            let integral = Integral::new(nodes).with_precision(precision).with_backend(backend);
+            add(format!("{nodes} nodes {precision}"), &|(batch, choices)| batch.hash_of_integral(&integral, choices));
+        }
+    }
+    unchanged(&lines, include_str!("golden/forms.txt"));
 }

@@ -169,3 +169,25 @@ fn a_ray_too_short_for_angles() {
         }
     }
 }
+
+/// It faces the ray from 1e-20 m away: the cosines at both ends are as small, that between them is 1.
+#[test]
+fn an_emitter_that_faces_a_ray_next_to_it_lights_it() {
+    let medium = Medium::new(0.1, 0.2, 0.6).unwrap();
+    for h in [1e-12, 1e-16, 1e-20, 1e-23] {
+        let lamp = Emitter::point_normal(Vec3::new(1.0, h, 0.0), Vec3::NEG_Y).unwrap();
+        let ray = Ray::new(Vec3::ZERO, Vec3::X, 0.0, 2.0).unwrap();
+        let scene = Scene::new(&ray, &lamp, &medium);
+        for (backend, &strategy) in distinct().flat_map(|backend| Strategy::ALL.iter().map(move |s| (backend, s))) {
+            let sampler = Sampler::new(strategy).with_backend(backend);
+            for u in [0.1, 0.5, 0.9] {
+                let name = format!("{strategy}, {}, h {h:e}, u {u}", backend.name());
+                let sample = sampler.sample_one(&ray, &lamp, &medium, u).expect(&name);
+                let cdf = |t: f32| scene.cdf(strategy, t.into());
+                let (low, high) = (cdf(sample.t.next_down()), cdf(sample.t.next_up()));
+                let near = 1.0 / f64::from(1 << 20);
+                assert!((low - near..=high + near).contains(&f64::from(u)), "{name}: CDF {low} to {high}");
+            }
+        }
+    }
+}

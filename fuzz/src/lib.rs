@@ -1,19 +1,34 @@
-//! What is fuzzed, as functions of bytes: calls on batches that the bytes describe, and the reader of wavefronts. A function
-//! that returns has found nothing.
+//! What is fuzzed, as functions of bytes: calls on batches that the bytes describe, the calls of the C ABI, and the reader of
+//! wavefronts. A function that returns has found nothing.
 //!
 //! ```sh
-//! cargo +nightly fuzz run sample      # one target, with cargo-fuzz
-//! cargo test --release                # all of them on random bytes, without it
+//! tools/fuzz.sh sample 600            # one target for ten minutes, with cargo-fuzz
+//! cargo test --release                # all of them on the seeds and on random bytes, without it
+//! cargo run --example seeds           # makes the seeds anew
 //! ```
+
+// What the reader of wavefronts takes from the library of the tools is here as well.
+extern crate self as airlight_tools;
 
 #[path = "../../tools/src/batch.rs"]
 mod batch;
+#[path = "../../tools/src/draw.rs"]
+mod draw;
+#[allow(dead_code, missing_docs, reason = "of the tools")]
+#[path = "../../tools/src/families.rs"]
+pub mod families;
 mod input;
 #[allow(dead_code, reason = "of the command")]
 #[path = "../../tools/src/npy.rs"]
 mod npy;
+#[allow(dead_code, reason = "of the command")]
 #[path = "../../tools/src/promises.rs"]
 mod promises;
+#[allow(dead_code, reason = "of the command")]
+#[path = "../../tools/src/room.rs"]
+mod room;
+#[path = "../../bindings/c/tests/host/structs.rs"]
+mod structs;
 #[allow(dead_code, reason = "of the command")]
 #[path = "../../tools/src/variates.rs"]
 mod variates;
@@ -21,16 +36,26 @@ mod variates;
 #[path = "../../tools/src/wavefront.rs"]
 mod wavefront;
 
+pub use input::{HEAD, Patch};
+
 use input::Input;
 use promises::Kept;
+use structs::{Dice, Structs};
 use wavefront::Wavefront;
+
+/// A target.
+pub type Target = fn(&[u8]);
+
+/// Every target, by name.
+pub const TARGETS: [(&str, Target); 6] =
+    [("sample", sample), ("densities", densities), ("radiance", radiance), ("choose", choose), ("c", c), ("npz", npz)];
 
 /// `Sampler::sample` on the batch that `data` describes.
 ///
 /// # Panics
 /// If a promise is broken.
 pub fn sample(data: &[u8]) {
-    Input::new(data).map(|input| held(input.batch.hold_sample(&input.sampler, input.cut)));
+    Input::new(data).map(|input| held(input.batch.hold_sample(&input.sampler, input.again)));
 }
 
 /// `Sampler::pdf`, `cdf` and `evaluate`.
@@ -38,18 +63,59 @@ pub fn sample(data: &[u8]) {
 /// # Panics
 /// If a promise is broken.
 pub fn densities(data: &[u8]) {
-    Input::new(data).map(|input| held(input.batch.hold_densities(&input.sampler, input.cut)));
+    Input::new(data).map(|input| held(input.batch.hold_densities(&input.sampler, input.again)));
 }
 
-/// `Integral::radiance` and `choose`.
+/// `Integral::radiance`.
 ///
 /// # Panics
 /// If a promise is broken.
 pub fn radiance(data: &[u8]) {
-    Input::new(data).map(|input| {
-        held(input.batch.hold_radiance(&input.integral, input.cut));
-        held(input.batch.hold_choose(&input.integral, &input.choices, input.cut))
+    Input::new(data).map(|input| held(input.batch.hold_radiance(&input.integral, input.again)));
+}
+
+/// `Integral::choose`.
+///
+/// # Panics
+/// If a promise is broken.
+pub fn choose(data: &[u8]) {
+    Input::new(data).map(|mut input| {
+        let choices = input.choices();
+        held(input.batch.hold_choose(&input.integral, &choices, input.again))
     });
+}
+
+/// A call of the C ABI with the structs that `data` says.
+///
+/// # Panics
+/// If a call panics or writes beside its columns.
+pub fn c(data: &[u8]) {
+    if !NAKED {
+        Structs::new(Bytes(data), FLOATS).call();
+    }
+}
+
+/// Miri knows no naked functions, as the entries of the C ABI are where there is one.
+const NAKED: bool = cfg!(all(miri, any(target_arch = "x86_64", target_arch = "aarch64")));
+
+/// Floats of the memory in which the columns of the C ABI lie.
+const FLOATS: usize = 1 << 11;
+
+/// Decisions by the next bytes; the first way where there are no more.
+struct Bytes<'d>(&'d [u8]);
+
+impl Dice for Bytes<'_> {
+    fn below(&mut self, n: u64) -> u64 {
+        let bytes = match n {
+            0..=0x100 => 1,
+            0x101..=0x1_0000 => 2,
+            0x1_0001..=0x1_0000_0000 => 4,
+            _ => 8,
+        };
+        let (now, later) = self.0.split_at(bytes.min(self.0.len()));
+        self.0 = later;
+        now.iter().fold(0, |number: u64, byte| number << 8 | u64::from(*byte)) % n
+    }
 }
 
 /// The reader of `airlight sample`: of `data` as an archive, and as a column.
@@ -75,6 +141,7 @@ fn held(kept: Kept) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::path::Path;
     use std::time::{SystemTime, UNIX_EPOCH};
 
     /// `AIRLIGHT_FUZZ` inputs for each target, of `AIRLIGHT_SEED`; unless told otherwise a few, of another seed every time.
@@ -83,13 +150,31 @@ mod tests {
         let number = |name: &str| std::env::var(name).ok().and_then(|number| number.parse().ok());
         let now = || SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |time| time.as_nanos() as u64);
         let seed = number("AIRLIGHT_SEED").unwrap_or_else(now);
-        let inputs = number("AIRLIGHT_FUZZ").unwrap_or(if cfg!(miri) { 3 } else { 2000 });
+        let inputs = number("AIRLIGHT_FUZZ").unwrap_or(if cfg!(miri) { 3 } else { 20_000 });
         println!("AIRLIGHT_SEED={seed} AIRLIGHT_FUZZ={inputs}");
         for input in 0..inputs {
             let bits = |index: u64| variates::bits(seed, input << 16 | index);
             let length = bits(0) % 256;
             let data: Vec<u8> = (1..=length).map(|index| bits(index) as u8).collect();
-            [sample, densities, radiance, npz].iter().for_each(|target| target(&data));
+            TARGETS.iter().for_each(|(_, target)| target(&data));
+        }
+    }
+
+    /// The hard cases of `airlight accuracy`, with every strategy and number of nodes, on every backend.
+    #[test]
+    fn the_seeds_break_nothing() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("seeds");
+        let mut seeds: Vec<_> = folder.read_dir().unwrap().map(|seed| seed.unwrap().path()).collect();
+        seeds.sort();
+        assert!(seeds.len() > 50, "{} seeds", seeds.len());
+        for seed in seeds.into_iter().step_by(if cfg!(miri) { 40 } else { 1 }) {
+            let mut data = std::fs::read(&seed).unwrap();
+            println!("{}", seed.display());
+            let again = if cfg!(miri) { 0..1 } else { 0..6 };
+            for (strategy, again) in (0..18).flat_map(|strategy| again.clone().map(move |again| (strategy, again))) {
+                (data[3], data[4], data[5], data[6]) = (strategy / 2, strategy % 2, strategy, again);
+                TARGETS[..4].iter().for_each(|(_, target)| target(&data));
+            }
         }
     }
 

@@ -13,6 +13,7 @@ pub mod errors;
 pub mod families;
 pub mod promises;
 pub mod renderer;
+pub mod room;
 pub mod samplers;
 pub mod scenes;
 pub mod threads;

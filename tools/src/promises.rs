@@ -2,6 +2,7 @@
 //! those of the ray alone, on any backend with fused multiply-add and however the batch is cut.
 
 use crate::batch::Batch;
+use crate::variates;
 use airlight::{Backend, Counts, Emitter, Error, Integral, Sampler, Samples, Threads};
 use std::ops::Range;
 
@@ -17,67 +18,131 @@ pub struct Choices {
 /// What became of the promises: how many values were looked at, or which promise is broken and where.
 pub type Kept = Result<usize, String>;
 
+/// What has to give the same bits as the batch on a backend.
+#[derive(Clone, Copy, Debug)]
+pub enum Again {
+    /// Every backend with fused multiply-add; and on each backend, on one thread, the two parts of the batch cut at a ray.
+    Everywhere {
+        /// The first ray of the second part.
+        cut: usize,
+    },
+    /// The two parts on the same backend.
+    Cut {
+        /// It.
+        on: Backend,
+        /// The first ray of the second part.
+        cut: usize,
+    },
+    /// Another backend; both have fused multiply-add.
+    Beside {
+        /// The one.
+        on: Backend,
+        /// The other.
+        other: Backend,
+    },
+}
+
 impl Batch {
-    /// Holds the promises of `sample` against it, on every backend, whole and cut at ray `cut`.
+    /// Holds the promises of `sample` against it.
     ///
     /// # Errors
     /// Which promise is broken.
-    pub fn hold_sample(&self, sampler: &Sampler, cut: usize) -> Kept {
-        let name = format!("sample by {} {}", sampler.strategy(), sampler.precision());
-        self.hold(&name, cut, |backend, threads, range| {
+    pub fn hold_sample(&self, sampler: &Sampler, again: Again) -> Kept {
+        let held = self.hold(again, |backend, threads, range| {
             self.sampled(&sampler.with_backend(backend).with_threads(threads), range)
-        })
+        });
+        held.map_err(|broken| format!("sample by {} {}, {broken}", sampler.strategy(), sampler.precision()))
     }
 
     /// Holds those of `pdf`, `cdf` and `evaluate` against it, at its distances.
     ///
     /// # Errors
     /// Which promise is broken.
-    pub fn hold_densities(&self, sampler: &Sampler, cut: usize) -> Kept {
-        let name = format!("densities of {} {}", sampler.strategy(), sampler.precision());
-        self.hold(&name, cut, |backend, threads, range| {
+    pub fn hold_densities(&self, sampler: &Sampler, again: Again) -> Kept {
+        let held = self.hold(again, |backend, threads, range| {
             self.densities(&sampler.with_backend(backend).with_threads(threads), range)
-        })
+        });
+        held.map_err(|broken| format!("densities of {} {}, {broken}", sampler.strategy(), sampler.precision()))
     }
 
     /// Holds those of `radiance` against it.
     ///
     /// # Errors
     /// Which promise is broken.
-    pub fn hold_radiance(&self, integral: &Integral, cut: usize) -> Kept {
-        let name = format!("radiance by {} nodes, {}", integral.nodes(), integral.precision());
-        self.hold(&name, cut, |backend, threads, range| {
+    pub fn hold_radiance(&self, integral: &Integral, again: Again) -> Kept {
+        let held = self.hold(again, |backend, threads, range| {
             self.radiances(&integral.with_backend(backend).with_threads(threads), range)
-        })
+        });
+        held.map_err(|broken| format!("radiance by {} nodes, {}, {broken}", integral.nodes(), integral.precision()))
     }
 
     /// Holds those of `choose` against it, with the first variate of each ray.
     ///
     /// # Errors
     /// Which promise is broken.
-    pub fn hold_choose(&self, integral: &Integral, choices: &Choices, cut: usize) -> Kept {
-        let name = format!("choose by {} nodes, {}", integral.nodes(), integral.precision());
-        self.hold(&name, cut, |backend, threads, range| {
+    pub fn hold_choose(&self, integral: &Integral, choices: &Choices, again: Again) -> Kept {
+        let held = self.hold(again, |backend, threads, range| {
             self.chosen(&integral.with_backend(backend).with_threads(threads), choices, range)
-        })
+        });
+        held.map_err(|broken| format!("choose by {} nodes, {}, {broken}", integral.nodes(), integral.precision()))
     }
 
-    fn hold(&self, name: &str, cut: usize, call: impl Fn(Backend, Threads, Range<usize>) -> Outcome) -> Kept {
-        let (n, mut looked_at, mut fused) = (self.len(), 0, None);
-        for backend in Backend::available() {
-            let told = |what: String| format!("{name}, {}: {what}", backend.name());
-            let whole = call(backend, Threads::Pool, 0..n);
-            whole.check(self).map_err(told)?;
-            looked_at += whole.values();
+    fn hold(&self, again: Again, call: impl Fn(Backend, Threads, Range<usize>) -> Outcome) -> Kept {
+        let n = self.len();
+        let whole = |on: Backend, threads| {
+            let whole = call(on, threads, 0..n);
+            whole.check(self).map_err(|what| format!("{}: {what}", on.name()))?;
+            Ok::<_, String>(whole)
+        };
+        let cut_at = |on: Backend, cut: usize, whole: &Outcome| {
             let cut = cut.min(n);
-            let parts = [0..cut, cut..n].map(|range| call(backend, Threads::Caller, range));
-            Outcome::joined(parts).same_as(&whole).map_err(|what| told(format!("cut at ray {cut}: {what}")))?;
-            if backend.is_fused() {
-                let (first, reference) = fused.get_or_insert((backend, whole.clone()));
-                whole.same_as(reference).map_err(|what| told(format!("beside {}: {what}", first.name())))?;
+            let parts = [0..cut, cut..n].map(|range| call(on, Threads::Caller, range));
+            let same = Outcome::joined(parts).same_as(whole);
+            same.map_err(|what| format!("{}: cut at ray {cut}: {what}", on.name()))
+        };
+        let beside = |on: Backend, whole: &Outcome, other: Backend, reference: &Outcome| {
+            let same = whole.same_as(reference);
+            same.map_err(|what| format!("{}: beside {}: {what}", on.name(), other.name()))
+        };
+        match again {
+            Again::Everywhere { cut } => {
+                let (mut looked_at, mut fused) = (0, None);
+                for on in Backend::available() {
+                    let whole = whole(on, Threads::Pool)?;
+                    looked_at += whole.values();
+                    cut_at(on, cut, &whole)?;
+                    if on.is_fused() {
+                        let (first, reference) = fused.get_or_insert((on, whole.clone()));
+                        beside(on, &whole, *first, reference)?;
+                    }
+                }
+                Ok(looked_at)
+            }
+            Again::Cut { on, cut } => {
+                let whole = whole(on, Threads::Caller)?;
+                cut_at(on, cut, &whole)?;
+                Ok(whole.values())
+            }
+            Again::Beside { on, other } => {
+                let whole = whole(on, Threads::Caller)?;
+                beside(on, &whole, other, &call(other, Threads::Caller, 0..n))?;
+                Ok(whole.values())
             }
         }
-        Ok(looked_at)
+    }
+
+    /// A hash of all that a sampler gives for the batch.
+    #[must_use]
+    pub fn hash_of_sampler(&self, sampler: &Sampler) -> u64 {
+        let all = 0..self.len();
+        [self.sampled(sampler, all.clone()), self.densities(sampler, all)].iter().fold(0, Outcome::hash)
+    }
+
+    /// A hash of all that an integral gives for the batch.
+    #[must_use]
+    pub fn hash_of_integral(&self, integral: &Integral, choices: &Choices) -> u64 {
+        let all = 0..self.len();
+        [self.radiances(integral, all.clone()), self.chosen(integral, choices, all)].iter().fold(0, Outcome::hash)
     }
 
     fn sampled(&self, sampler: &Sampler, range: Range<usize>) -> Outcome {
@@ -214,6 +279,15 @@ impl Outcome {
         }
         let counts = self.counts[0].as_ref().map_or(0, |counts| counts.sampled);
         if sampled <= counts { Ok(()) } else { Err(format!("{counts} samples are counted, {sampled} written")) }
+    }
+
+    /// That of its bits and counts, after `hash`.
+    fn hash(hash: u64, outcome: &Self) -> u64 {
+        let values = outcome.columns.iter().flat_map(|column| &column.values);
+        let counts = outcome.counts.iter().map(|counts| counts.unwrap_or_default());
+        let counts = counts.flat_map(|c| [c.sampled, c.empty, c.invalid, c.bisected]);
+        let numbers = values.map(|value| value.to_bits().into()).chain(counts.map(|count| count as u64));
+        numbers.fold(hash, variates::bits)
     }
 
     /// Equal bits and equal counts.

@@ -1,5 +1,7 @@
 //! `airlight soak`: random batches of all families, in all forms that a call takes, for as long as one likes, held against what
-//! is promised.
+//! is promised; or rays of random bits.
+
+mod bits;
 
 use crate::arguments::{self, Json};
 use crate::output;
@@ -8,7 +10,8 @@ use airlight_tools::batch::{Columns, FORMS, push};
 use airlight_tools::bounds::bounds;
 use airlight_tools::errors::Errors;
 use airlight_tools::families::{self, Case, Family};
-use airlight_tools::promises::{Choices, Kept};
+use airlight_tools::promises::{Again, Choices, Kept};
+use airlight_tools::room::Random;
 use airlight_tools::{samplers, variates};
 use anyhow::Result;
 use rayon::prelude::*;
@@ -44,6 +47,9 @@ pub(crate) struct Args {
     /// Number of the first round, to repeat one that failed
     #[arg(long, value_name = "ROUND", default_value_t = 0)]
     first: u64,
+    /// Rounds of 2^14 rays of random bits, one call on two backends for each, as fast as can be; nothing is compared with the oracle
+    #[arg(long)]
+    bits: bool,
     /// Seed of the rounds
     #[arg(long, default_value_t = 0)]
     seed: u64,
@@ -60,13 +66,12 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode> {
 }
 
 fn measure(args: &Args) -> Figures {
-    let (start, mut figures) = (Instant::now(), Figures { seed: args.seed, ..Figures::default() });
+    let (start, mut figures) = (Instant::now(), Figures { seed: args.seed, bits: args.bits, ..Figures::default() });
     let more = |done: u64| args.rounds.map_or_else(|| start.elapsed() < args.minutes, |rounds| done < rounds);
     while more(figures.rounds) {
         let step = args.rounds.map_or(STEP, |rounds| STEP.min(rounds - figures.rounds));
         let first = args.first + figures.rounds;
-        let tried: Vec<_> =
-            (first..first + step).into_par_iter().map(|round| (round, guarded(args.seed, round))).collect();
+        let tried: Vec<_> = (first..first + step).into_par_iter().map(|round| (round, guarded(args, round))).collect();
         tried.into_iter().for_each(|(round, tried)| figures.add(round, tried));
     }
     figures
@@ -76,6 +81,7 @@ fn measure(args: &Args) -> Figures {
 #[derive(Default, Serialize)]
 struct Figures {
     seed: u64,
+    bits: bool,
     rounds: u64,
     rays: usize,
     results: usize,
@@ -97,8 +103,8 @@ impl Figures {
             Err(broken) => {
                 self.failures += 1;
                 if self.told.len() < TOLD {
-                    let seed = self.seed;
-                    self.told.push(format!("--seed {seed} --first {round} --rounds 1: {broken}"));
+                    let (seed, bits) = (self.seed, if self.bits { "--bits " } else { "" });
+                    self.told.push(format!("{bits}--seed {seed} --first {round} --rounds 1: {broken}"));
                 }
             }
         }
@@ -107,9 +113,16 @@ impl Figures {
 
 impl fmt::Display for Figures {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { seed, rounds, rays, results, compared, failures, told } = self;
+        let Self { seed, bits, rounds, rays, results, compared, failures, told } = self;
         told.iter().try_for_each(|told| writeln!(f, "BROKEN: {told}"))?;
         writeln!(f, "seed {seed}, {rounds} rounds: {rays} rays, {failures} failures")?;
+        if *bits {
+            writeln!(
+                f,
+                "  results     {results}: values of a call on a backend, compared with those of another with fused"
+            )?;
+            return writeln!(f, "              multiply-add or of the batch in two parts, and finite and in range");
+        }
         writeln!(
             f,
             "  results     {results} values: finite, in range, the same for the batch in two parts, and the same on all"
@@ -130,19 +143,27 @@ struct Tried {
 }
 
 /// A round, whose panic is a failure.
-fn guarded(seed: u64, round: u64) -> Result<Tried, String> {
-    catch_unwind(|| Round::new(seed, round).run()).unwrap_or_else(|_| Err("panic".to_owned()))
+fn guarded(args: &Args, round: u64) -> Result<Tried, String> {
+    let tried =
+        || if args.bits { bits::run(&mut random(args.seed, round)) } else { Round::new(args.seed, round).run() };
+    catch_unwind(tried).unwrap_or_else(|_| Err("panic".to_owned()))
 }
 
-/// One round: all that it draws depends on seed and number alone.
+/// All that a round draws depends on seed and number alone.
+fn random(seed: u64, round: u64) -> Random {
+    Random::new(variates::bits(seed, round))
+}
+
+/// One round.
 struct Round {
+    /// Of the families' cases.
     seed: u64,
-    index: u64,
+    random: Random,
 }
 
 impl Round {
     fn new(seed: u64, round: u64) -> Self {
-        Self { seed: variates::bits(seed, round), index: 0 }
+        Self { seed: variates::bits(seed, round), random: random(seed, round) }
     }
 
     fn run(mut self) -> Result<Tried, String> {
@@ -165,15 +186,16 @@ impl Round {
         let choices = Choices { table, weights };
         let (form, cut) = (self.below(FORMS as u64) as usize, self.below(n as u64) as usize);
         let batch = columns.batch(form, |n| self.below(n));
+        let again = Again::Everywhere { cut };
         let place = |broken: String| {
             let name = if mixed { "all families" } else { family.name() };
             format!("{name}, {n} rays, {per_ray} variates each, form {form}: {broken}")
         };
         let results: Kept = [
-            batch.hold_sample(&sampler, cut),
-            batch.hold_densities(&sampler, cut),
-            batch.hold_radiance(&integral, cut),
-            batch.hold_choose(&integral, &choices, cut),
+            batch.hold_sample(&sampler, again),
+            batch.hold_densities(&sampler, again),
+            batch.hold_radiance(&integral, again),
+            batch.hold_choose(&integral, &choices, again),
         ]
         .into_iter()
         .sum();
@@ -186,8 +208,7 @@ impl Round {
     }
 
     fn below(&mut self, n: u64) -> u64 {
-        self.index += 1;
-        (variates::bits(self.seed, self.index) >> 8) % n
+        self.random.below(n)
     }
 
     /// The cases as columns of every form. The channels of a colour are the media of rays next to each other.
@@ -243,22 +264,31 @@ fn compare(sampler: &Sampler, family: Family, seed: u64) -> Result<usize, String
 mod tests {
     use super::*;
 
-    fn soak(first: u64, rounds: u64, seed: u64) -> Figures {
-        let args = Args { minutes: Duration::ZERO, rounds: Some(rounds), first, seed, json: Json::default() };
-        measure(&args)
+    fn soak(first: u64, rounds: u64, seed: u64, bits: bool) -> Figures {
+        measure(&Args { minutes: Duration::ZERO, rounds: Some(rounds), first, bits, seed, json: Json::default() })
     }
 
     #[test]
     fn random_batches_keep_every_promise() {
         let seed = std::process::id().into();
-        let figures = soak(0, 300, seed);
+        let figures = soak(0, 300, seed, false);
         assert_eq!(figures.failures, 0, "{figures}");
         assert!(figures.rays > 10_000 && figures.compared > 1_000, "{figures}");
     }
 
     #[test]
+    fn random_bits_keep_every_promise() {
+        let seed = std::process::id().into();
+        let figures = soak(0, 20, seed, true);
+        assert_eq!(figures.failures, 0, "{figures}");
+        assert_eq!(figures.rays, 20 << 14, "{figures}");
+    }
+
+    #[test]
     fn a_round_can_be_repeated() {
-        let [whole, first, second] = [soak(3, 2, 7), soak(3, 1, 7), soak(4, 1, 7)];
-        assert_eq!((whole.rays, whole.results), (first.rays + second.rays, first.results + second.results));
+        for bits in [false, true] {
+            let [whole, first, second] = [soak(3, 2, 7, bits), soak(3, 1, 7, bits), soak(4, 1, 7, bits)];
+            assert_eq!((whole.rays, whole.results), (first.rays + second.rays, first.results + second.results));
+        }
     }
 }
