@@ -437,6 +437,12 @@ impl<I: Isa> Foot<I> {
         (point.exact_t_prime() - (t_min.widen() - self.exact_t_h())) + self.exact_r(isa, point)
     }
 
+    /// The same in f32: `|t_min - t_h|` is at most the path.
+    #[cfg_attr(optimized, inline(always))]
+    pub(crate) fn rounded_path(&self, t_min: I::V, point: &Point<I>) -> I::V {
+        (point.t_prime - ((t_min - self.t_h) - self.t_h_low)) + point.r
+    }
+
     /// (5.7): `X = t' + r`, and `r` \[m\], in f64.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn exact_x_and_r(&self, isa: I, point: &Point<I>) -> (I::Double, I::Double) {

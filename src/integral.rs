@@ -51,7 +51,7 @@ impl Integral {
         Self { nodes, precision, backend: Backend::detect(), threads }
     }
 
-    /// The same with geometry of another precision.
+    /// The same in another precision.
     #[must_use]
     pub fn with_precision(self, precision: Precision) -> Self {
         Self { precision, ..self }

@@ -97,10 +97,12 @@ pub(crate) fn transmittance<I: Isa, const EXACT: bool>(
     medium: &MediumLanes<I>,
     point: &Point<I>,
 ) -> I::V {
-    if !EXACT {
-        return one_minus_exp(isa, medium.mu_t * ((point.t - ray.t_min) + point.r)).1;
+    if EXACT {
+        exp(isa, -(medium.mu_t.widen() * geometry.foot.path(isa, ray.t_min, point)))
+    } else {
+        let (_, transmittance) = one_minus_exp(isa, medium.mu_t * geometry.foot.rounded_path(ray.t_min, point));
+        transmittance
     }
-    exp(isa, -(medium.mu_t.widen() * geometry.foot.path(isa, ray.t_min, point)))
 }
 
 /// (1.4), by (1.11) and (1.12): the phase function of Henyey and Greenstein \[1/sr\].

@@ -1,4 +1,4 @@
-//! The precision of the geometry.
+//! The precision of geometry and optical depths.
 
 use crate::simd::Isa;
 use std::fmt;
@@ -26,10 +26,11 @@ use std::str::FromStr;
 /// | pdf at a given `t`, 99 % of rays | ordinary scenes | 8 ulp | 32 ulp |
 /// | pdf at a given `t`, 99.9 % of rays | ordinary scenes | | 1e-4, relative |
 /// | pdf at a given `t`, 99.99 % of rays | ordinary scenes | 64 ulp | |
+/// | weight, relative, 99.9 % of rays | ordinary scenes | 2e-5 | 5e-5 |
 /// | rays wrongly taken for lit or dark | all families | none | where the light is below 1e-5 of that of an emitter faced squarely |
 ///
 /// In both precisions the pdf is that of the density that is sampled, so that an estimate of your own integrand is unbiased, except
-/// for light that is misjudged. Weights also have the error of the integrand, in `Fast` 3e-7 of the optical depth.
+/// for light that is misjudged. Weights also have the error of the integrand, in `Fast` 3e-7 of the optical depth besides.
 ///
 /// # Arithmetic
 /// Both precisions compute the geometry of a ray in f64 where f32 is not enough for them: `Fast` where the ray's line passes the

@@ -1,6 +1,6 @@
 //! From a call to its kernels: columns -> geometry -> density -> inversion -> samples.
 //!
-//! A batch is cut into chunks that stay in a core's cache, and a chunk into blocks of a few lane groups. The passes of a task
+//! A batch is cut into chunks, each of them a task of one thread, and a chunk into blocks of a few lane groups. The passes of a task
 //! and a density run over a block, one after the other. The arithmetic of a ray does not depend on its place in the batch:
 //! chunks, blocks and threads change no bit.
 
@@ -31,10 +31,9 @@ use core::marker::PhantomData;
 use core::ops::Range;
 use core::slice::from_ref;
 
-/// The number of values of a chunk where threads share a batch: enough chunks for all, and each takes ten times as long as it takes
-/// to hand it on.
+/// The number of values of a chunk where threads share a batch: less takes about as long as to hand it to another thread.
 const CHUNK: usize = 4096;
-/// The number of values of a chunk where one thread has the batch.
+/// The number of values of a chunk where one thread has the batch. Its limit is that a tally counts in f32.
 const LONG_CHUNK: usize = 1 << 16;
 /// A ray with at least this number of values is a chunk of its own. Its values fill the lanes, and it costs the set-up of a whole
 /// lane group: with 32 lanes, one set-up for 32 samples.
@@ -119,7 +118,7 @@ pub(crate) fn travel<T: Task>(
     out: Out<'_, T>,
 ) -> Counts {
     // A single chunk does not start the pool.
-    let split = if inputs.values() > CHUNK { threads.split() } else { None };
+    let split = if is_one_chunk(inputs, CHUNK) { None } else { threads.split() };
     let (share, chunk) = split.map_or(([1, 2], LONG_CHUNK), |split| (split.share, CHUNK));
     let Some((low, high)) = parts(inputs, share, chunk) else {
         return by_groups::<T>(backend, method, inputs, out);
@@ -171,19 +170,26 @@ fn parts<'a>(inputs: &Inputs<'a>, [low, all]: [usize; 2], values: usize) -> Opti
         (chunks as usize).max(1) * chunk
     };
     let (rays, per_ray) = (inputs.len(), inputs.per_ray);
-    let chunk = match values / per_ray {
-        _ if per_ray >= MANY => 1,
-        rays => rays.next_multiple_of(MOST_LANES),
-    };
-    if rays > chunk {
-        let first = first(rays, chunk);
+    if is_one_chunk(inputs, values) {
+        None
+    } else if rays > 1 {
+        let first = first(rays, rays_of_chunk(per_ray, values));
         Some((inputs.slice(0..first), inputs.slice(first..rays)))
-    } else if rays == 1 && per_ray > values {
+    } else {
         let first = first(per_ray, values);
         Some((inputs.of_one_ray(0..first), inputs.of_one_ray(first..per_ray)))
-    } else {
-        None
     }
+}
+
+/// Whether a batch is not cut into chunks of about `values` values.
+fn is_one_chunk(inputs: &Inputs<'_>, values: usize) -> bool {
+    let (rays, per_ray) = (inputs.len(), inputs.per_ray);
+    if rays == 1 { per_ray <= values } else { rays <= rays_of_chunk(per_ray, values) }
+}
+
+/// The number of rays of a chunk of about `values` values.
+fn rays_of_chunk(per_ray: usize, values: usize) -> usize {
+    if per_ray >= MANY { 1 } else { (values / per_ray).next_multiple_of(MOST_LANES) }
 }
 
 /// Runs a task on a chunk. Passes run over whole lane groups. The rays that do not fill a group run one by one, or in a group with

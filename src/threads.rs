@@ -18,7 +18,7 @@ pub enum Threads {
     Caller,
 }
 
-/// The number of parts of a batch for each thread of a pool: a thread that is done early takes a part of another one.
+/// The number of parts of a batch for each thread of a pool: a thread that finishes early takes a part of another thread.
 #[cfg(feature = "rayon")]
 const PARTS: usize = 32;
 

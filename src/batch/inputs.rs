@@ -24,15 +24,15 @@ pub(crate) struct Inputs<'a> {
     pub(super) counted: Option<[usize; 2]>,
 }
 
-/// The least number of rays that are prefetched: their columns do not stay in a cache of 16 MiB. In a smaller batch prefetches
-/// take more time than they save.
-const FAR: usize = (1 << 18) + 1;
+/// The largest batch that is not prefetched: its columns are 10 MiB, which stay in a cache. There prefetches take more time than
+/// they save.
+const NEAR: usize = 1 << 18;
 
 impl<'a> Inputs<'a> {
     /// The inputs without numbers, if every column has the same length.
     pub(crate) fn new(rays: &Rays<'a>, emitters: &Emitters<'a>, media: &Media<'a>) -> Result<Self, Error> {
         let (rays, emitters, media) = (*rays, *emitters, *media);
-        let (order, prefetch) = (Order::ByTurn, rays.len() >= FAR);
+        let (order, prefetch) = (Order::ByTurn, rays.len() > NEAR);
         let inputs = Self { rays, emitters, media, given: &[], per_ray: 1, order, prefetch, counted: None };
         const O: [&str; 3] = ["rays.origin[0]", "rays.origin[1]", "rays.origin[2]"];
         const D: [&str; 3] = ["rays.direction[0]", "rays.direction[1]", "rays.direction[2]"];
@@ -105,12 +105,12 @@ impl<'a> Inputs<'a> {
         Self { rays: self.rays.part(range), emitters, media, given, ..*self }
     }
 
-    /// The same rays with other emitters.
+    /// The same rays with other emitters. They are not prefetched: each emitter takes them again.
     pub(crate) fn lit_by<'b>(&self, emitters: Emitters<'b>) -> Inputs<'b>
     where
         'a: 'b,
     {
-        Inputs { emitters, ..*self }
+        Inputs { emitters, prefetch: false, ..*self }
     }
 
     /// Only the numbers of `range`, of one ray.

@@ -3,8 +3,8 @@
 //! A pass reads the records of the pass before and writes its own; they stay in the nearest caches. The passes are
 //!
 //! 1. geometry, the part that is needed: the lit interval, then the foot of the perpendicular, hard lanes in f64, and spots in f64;
-//! 2. set-up, inversion and output of a density, a pass each: the shorter a pass, the more groups are in flight at a time. They are
-//!    one pass where set-ups are too large for the nearest cache, if none is used twice;
+//! 2. set-up, inversion and output of a density, a pass each: the shorter a pass, the more groups are in flight at a time. The Taylor
+//!    densities, whose set-ups do not fit the nearest cache, take one pass if each ray has one variate;
 //! 3. weights, the same for all densities.
 
 use crate::Precision;

@@ -9,7 +9,7 @@ use crate::scene::MOST_CHANNELS;
 use crate::simd::{GROUPS, Isa, Kernel, Lanes, Machine, Records, Room, none};
 use crate::{Nodes, Precision};
 
-/// The number of nodes, and the precision of the geometry.
+/// The number of nodes, and the precision.
 #[derive(Clone, Copy)]
 pub(crate) struct Quadrature {
     pub(crate) nodes: Nodes,

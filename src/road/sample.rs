@@ -45,6 +45,7 @@ impl<const WITH_WEIGHT_OR_R: bool> OfDensity for Drawing<WITH_WEIGHT_OR_R> {
         let mut places = Records::new();
         let mut points = Records::new();
         let mut pad = None;
+        // Set-ups that do not fit the nearest cache, and are used once.
         let once = inputs.per_ray == 1 && SetUps::<I, D>::SIZE < GROUPS;
         let wanted = Wanted {
             precision,
@@ -96,6 +97,11 @@ fn at_once<'r, I: Isa, D: Kind, const KEEP: bool>(
             let (mut kept, mut counted) = (points.start(), *tally);
             let columns = I::groups(u).iter().zip(I::groups_mut(out.t)).zip(I::groups_mut(out.pdf));
             for (record, ((u, t), pdf)) in (0..block.groups.len()).zip(columns) {
+                if block.inputs.prefetch {
+                    isa.prefetch(u, AHEAD);
+                    isa.prefetch(t, AHEAD);
+                    isa.prefetch(pdf, AHEAD);
+                }
                 let (geometry, set_up) = (geometries.get(record), for_set_up.set_up::<D::On<I>>(isa, record));
                 let placed = Placed::new(isa, geometry, &set_up, u);
                 let sampled = point_one::<I, D>(isa, geometry, &set_up, &placed, t, pdf, &mut counted);

@@ -22,8 +22,9 @@ const VARIATE: f64 = 1.0 / (1 << 20) as f64;
 const OFF_THE_MASS: f64 = 1e-12;
 /// Geometry in f64 may move a point by this share of the distances in it.
 const GEOMETRY: f64 = 8.0 * f64::EPSILON;
-/// By this share the ends of the lit interval, which are kept as two f32, may be off.
-const ENDS: f64 = 1.0 / (1u64 << 44) as f64;
+/// By these shares of the distances the ends of the lit interval may be off (`src/geometry/single.rs`): for a direction of unit
+/// length, and more for each unit that its length is off.
+const ENDS: [f64; 2] = [1.0 / (1u64 << 44) as f64, 1.0 / (1u64 << 22) as f64];
 /// The least `h`, of the distance to the emitter, that f64 geometry leaves all digits of f32.
 const NEAREST: f64 = 1e-7;
 /// The `h` of an emitter that is the ray's origin, rounded to f32: the kernels have 5e-8 more \[m\].
@@ -316,7 +317,7 @@ impl Row {
         let cdf = (scene.cdf(strategy, t.into()) - u).abs();
         let rounding = Rounding::new(&scene, sharpest_edge(&scene, &ray, &emitter), t);
         let cdfs = rounding.ends.map(|t| scene.cdf(strategy, t));
-        let off = rounding.moved * (ENDS / GEOMETRY);
+        let off = rounding.of_ends(&ray);
         let moved = [f64::from(t) - off, f64::from(t) + off];
         // A plane where N = 0 is known much better: what is close to it counts little.
         let edge = if emitter.cone().is_some() { rounding.moved } else { 0.0 };
@@ -383,6 +384,8 @@ struct Rounding {
     moved: f64,
     /// The largest distance that the point has from something.
     scale: f64,
+    /// The sine of the least angle at which the ray meets an end of the light.
+    sine: f64,
 }
 
 impl Rounding {
@@ -391,7 +394,13 @@ impl Rounding {
         let scale = f64::from(t).max(scene.r(t.into())).max(scene.t_h().abs());
         let moved = GEOMETRY * scale / sine;
         let [low, high] = [t.next_down(), t.next_up()].map(|next| 0.5 * (f64::from(t) + f64::from(next)));
-        Self { ends: [low - moved, high + moved], moved, scale }
+        Self { ends: [low - moved, high + moved], moved, scale, sine }
+    }
+
+    /// By how much an end of the lit interval may be off.
+    fn of_ends(&self, ray: &Ray) -> f64 {
+        let length = ray.direction().map(f64::from).iter().map(|d| d * d).sum::<f64>().sqrt();
+        (ENDS[0] + ENDS[1] * (length - 1.0).abs()) * self.scale / self.sine
     }
 }
 

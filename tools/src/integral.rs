@@ -41,7 +41,7 @@ pub(crate) struct Args {
     /// Seed of the scenes
     #[arg(long, default_value_t = 0)]
     seed: u64,
-    /// Precision of the geometry, exact or fast
+    /// Precision, exact or fast
     #[arg(long, value_name = "NAME", default_value_t)]
     precision: Precision,
     #[command(flatten)]

@@ -9,7 +9,7 @@ use crate::families::Family;
 type Figure = (&'static str, fn(&Errors) -> f64);
 
 /// What is bounded besides.
-const FIGURES: [Figure; 7] = [
+const FIGURES: [Figure; 8] = [
     ("misjudged_light", |e| e.misjudged_light),
     ("cdf_p999", |e| high_quantile(&e.cdf, 0.999)),
     ("cdf_beyond_t_p999", |e| high_quantile(&e.cdf_beyond_t, 0.999)),
@@ -17,6 +17,7 @@ const FIGURES: [Figure; 7] = [
     ("cdf_at_t_p999", |e| high_quantile(&e.cdf_at_t, 0.999)),
     ("pdf_p99", |e| quantile(&e.pdf, 0.99)),
     ("pdf_p999", |e| high_quantile(&e.pdf, 0.999)),
+    ("weight_p999", |e| high_quantile(&e.weight, 0.999)),
 ];
 
 /// No bound: f32 has no more to say there.
@@ -24,27 +25,27 @@ const NONE: f64 = f64::INFINITY;
 /// 1e-4 of a density, in ulp where an ulp is the most of a number.
 const SHARE: f64 = 1e-4 / f32::EPSILON as f64;
 /// Next to an emitter, where `h` is known to 2^-10 of itself.
-const NEAR: [f64; FIGURES.len()] = [1e-5, NONE, 2e-3, 2e-2, 2e-3, 3e4, NONE];
+const NEAR: [f64; FIGURES.len()] = [1e-5, NONE, 2e-3, 2e-2, 2e-3, 3e4, NONE, 2e-2];
 /// On ordinary scenes.
-const ORDINARY: [f64; FIGURES.len()] = [1e-5, 8e-6, 8e-6, 1e-4, 8e-6, 32.0, SHARE];
+const ORDINARY: [f64; FIGURES.len()] = [1e-5, 8e-6, 8e-6, 1e-4, 8e-6, 32.0, SHARE, 5e-5];
 
 /// The limits of these figures on every family.
 const LIMITS: [(Family, [f64; FIGURES.len()]); Family::ALL.len()] = [
     (Family::Generic, ORDINARY),
-    (Family::Variate, [1e-5, 8e-6, 8e-6, 1e-4, 8e-6, 6e4, NONE]),
+    (Family::Variate, [1e-5, 8e-6, 8e-6, 1e-4, 8e-6, 6e4, NONE, NONE]),
     (Family::NearEmitter, NEAR),
     (Family::FarAway, ORDINARY),
-    (Family::InfiniteRays, [1e-5, NONE, 1e-3, 4e-3, 1e-3, 1e4, NONE]),
-    (Family::ShortIntervals, [1e-5, NONE, 8e-6, 1e-4, 8e-6, 32.0, SHARE]),
+    (Family::InfiniteRays, [1e-5, NONE, 1e-3, 4e-3, 1e-3, 1e4, NONE, 5e-3]),
+    (Family::ShortIntervals, [1e-5, NONE, 8e-6, 1e-4, 8e-6, 32.0, SHARE, 5e-5]),
     // Ends beside the emitter's plane: what of the ray is lit may be a rounding.
-    (Family::Cosine, [1e-5, NONE, NONE, NONE, NONE, NONE, NONE]),
+    (Family::Cosine, [1e-5, NONE, NONE, NONE, NONE, NONE, NONE, 2e-4]),
     (Family::Phase, ORDINARY),
     (Family::Medium, ORDINARY),
     (Family::Ray, ORDINARY),
-    (Family::RandomBits, [1e-5, NONE, 1e-4, NONE, 1e-4, NONE, NONE]),
+    (Family::RandomBits, [1e-5, NONE, 1e-4, NONE, 1e-4, NONE, NONE, NONE]),
     (Family::Peaks, NEAR),
     // In f64 as in exact precision; next to the apex t resolves nothing.
-    (Family::Spot, [1e-5, NONE, 8e-6, 1e-4, 8e-6, 64.0, NONE]),
+    (Family::Spot, [1e-5, NONE, 8e-6, 1e-4, 8e-6, 64.0, NONE, NONE]),
     // One ray in four passes the emitter as near.
     (Family::Colour, NEAR),
 ];
