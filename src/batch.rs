@@ -29,7 +29,7 @@ pub(crate) use source::Rows;
 use crate::simd::{Isa, MOST_LANES};
 
 /// The largest number of rays of a block.
-pub(crate) const MOST_RAYS: usize = if cfg!(optimized) { 256 } else { 2 * MOST_LANES };
+pub(crate) const MOST_RAYS: usize = if cfg!(optimized) { 512 } else { 2 * MOST_LANES };
 
 /// The first `count` groups of a column.
 #[cfg_attr(optimized, inline(always))]

@@ -31,14 +31,16 @@ use core::marker::PhantomData;
 use core::ops::Range;
 use core::slice::from_ref;
 
-/// The number of values of a chunk: 22 columns of grey media and no spots are 352 KiB, which stay in a
-/// core's cache; with spots and four channels 33 columns are 528 KiB.
+/// The number of values of a chunk where threads share a batch: enough chunks for all, and each takes ten times as long as it takes
+/// to hand it on.
 const CHUNK: usize = 4096;
+/// The number of values of a chunk where one thread has the batch.
+const LONG_CHUNK: usize = 1 << 16;
 /// A ray with at least this number of values is a chunk of its own. Its values fill the lanes, and it costs the set-up of a whole
 /// lane group: with 32 lanes, one set-up for 32 samples.
 const MANY: usize = 1024;
 // A tally counts the values of a chunk in f32.
-const _: () = assert!(CHUNK + MOST_LANES * MANY < 1 << f32::MANTISSA_DIGITS);
+const _: () = assert!(LONG_CHUNK + MOST_LANES * MANY < 1 << f32::MANTISSA_DIGITS);
 
 /// The output columns of a task.
 pub(crate) type Out<'a, T> = <<T as Task>::Out as Outputs>::At<'a>;
@@ -116,8 +118,10 @@ pub(crate) fn travel<T: Task>(
     inputs: &Inputs<'_>,
     out: Out<'_, T>,
 ) -> Counts {
-    let split = threads.split();
-    let Some((low, high)) = parts(inputs, split.map_or([1, 2], |split| split.share)) else {
+    // A single chunk does not start the pool.
+    let split = if inputs.values() > CHUNK { threads.split() } else { None };
+    let (share, chunk) = split.map_or(([1, 2], LONG_CHUNK), |split| (split.share, CHUNK));
+    let Some((low, high)) = parts(inputs, share, chunk) else {
         return by_groups::<T>(backend, method, inputs, out);
     };
     let (out_low, out_high) = T::Out::split_at(out, low.values());
@@ -158,23 +162,24 @@ pub(crate) fn travel_one<T: Task>(
     by_groups::<T>(backend, method, &Inputs::one(rays, *emitter, *medium, given), out)
 }
 
-/// Two parts of whole chunks (only the last chunk may be short), the first with about `low/all` of them; `None` for a single chunk.
-fn parts<'a>(inputs: &Inputs<'a>, [low, all]: [usize; 2]) -> Option<(Inputs<'a>, Inputs<'a>)> {
+/// Two parts of whole chunks of about `values` values (only the last chunk may be short), the first with about `low/all` of them;
+/// `None` for a single chunk.
+fn parts<'a>(inputs: &Inputs<'a>, [low, all]: [usize; 2], values: usize) -> Option<(Inputs<'a>, Inputs<'a>)> {
     // Both parts have at least one chunk.
     let first = |length: usize, chunk: usize| {
         let chunks = length.div_ceil(chunk) as u128 * low as u128 / all as u128;
         (chunks as usize).max(1) * chunk
     };
     let (rays, per_ray) = (inputs.len(), inputs.per_ray);
-    let chunk = match CHUNK / per_ray {
+    let chunk = match values / per_ray {
         _ if per_ray >= MANY => 1,
         rays => rays.next_multiple_of(MOST_LANES),
     };
     if rays > chunk {
         let first = first(rays, chunk);
         Some((inputs.slice(0..first), inputs.slice(first..rays)))
-    } else if rays == 1 && per_ray > CHUNK {
-        let first = first(per_ray, CHUNK);
+    } else if rays == 1 && per_ray > values {
+        let first = first(per_ray, values);
         Some((inputs.of_one_ray(0..first), inputs.of_one_ray(first..per_ray)))
     } else {
         None

@@ -234,7 +234,7 @@ impl Sampler {
     ///
     /// | precision | absolute error at the given `t` | where | test |
     /// |---|---|---|---|
-    /// | [`Precision::Exact`] | 2^-20 at most | all families | `tests/hard_cases.rs`, `tests/cdf.rs` |
+    /// | [`Precision::Exact`] | 2^-20 at most, beyond what 2^-44 of the distances change it (optical depths above 1e7) | all families | `tests/hard_cases.rs`, `tests/cdf.rs` |
     /// | [`Precision::Fast`] | 8e-6 for 99.9 % of rays | [ordinary scenes](Precision), `variate`, `short-intervals`, `spot` | `tests/hard_cases.rs` |
     /// | [`Precision::Fast`] | 2e-3 for 99.9 % of rays | `near-emitter`, `peaks`, `colour` | `tests/hard_cases.rs` |
     /// | [`Precision::Fast`] | 1e-3 for 99.9 % of rays | `infinite-rays` | `tests/hard_cases.rs` |

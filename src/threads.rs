@@ -18,6 +18,10 @@ pub enum Threads {
     Caller,
 }
 
+/// The number of parts of a batch for each thread of a pool: a thread that is done early takes a part of another one.
+#[cfg(feature = "rayon")]
+const PARTS: usize = 32;
+
 /// The division of a batch into two parts.
 #[derive(Clone, Copy)]
 pub(crate) struct Split {
@@ -37,7 +41,8 @@ impl Threads {
     /// The division of a batch and its threads; `None` if both parts run on this thread.
     pub(crate) fn split(self) -> Option<Split> {
         match self {
-            Self::Pool if cfg!(feature = "rayon") => Some(Split { share: [1, 2], threads: [self; 2] }),
+            #[cfg(feature = "rayon")]
+            Self::Pool => Self::at_most(PARTS * rayon::current_num_threads()).split(),
             Self::AtMost(threads) if cfg!(feature = "rayon") && threads.get() > 1 => {
                 let (low, all) = (threads.get() / 2, threads.get());
                 Some(Split { share: [low, all], threads: [Self::at_most(low), Self::at_most(all - low)] })

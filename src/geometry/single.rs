@@ -17,7 +17,7 @@
 //!
 //! 1. `EXACT` computes `f` in f64: `h` and `t'` are then rounded once.
 //! 2. `EXACT` computes `q`, `beta` and `m` in f64, and the Newton step from `near` to `t_n`: the place of `m` = 0 then has an error
-//!    of 2^-48 of the distance, of 2^-40 where `|d|` is 1e-5 off.
+//!    of 2^-45 of the distance, of 2^-40 where `|d|` is 1e-5 off.
 //! 3. Without `EXACT`, `t_n` is `near`.
 //! 4. A lane is hard, and is computed in f64 (`double`), if one of these holds. No other lane changes this.
 //!    - `d` or the normal is farther from unit length than 1e-5;

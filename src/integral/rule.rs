@@ -80,6 +80,42 @@ impl Node {
     }
 }
 
+/// The variable `v` of a lane group, and what goes with it.
+#[derive(Clone, Copy)]
+pub(crate) struct Variable<I: Isa> {
+    /// `r` and `X` at the start.
+    r_a: I::V,
+    x_a: I::V,
+    /// `h/X` at the ends.
+    h_x_a: I::V,
+    h_x_b: I::V,
+    y_b: I::V,
+    y_c: I::V,
+    /// `1/(1 + e)`, `e/(1 + e)`.
+    w_0: I::V,
+    s_b: I::V,
+    d: I::V,
+    /// The reciprocal of the largest of `h`, `X_a` and `Y_c`.
+    inv_size: I::V,
+}
+
+impl<I: Isa> Variable<I> {
+    /// (1.3): the transmittance from `t_min` over the start of the lit part to the emitter. Without `EXACT` the path is in f32.
+    #[cfg_attr(optimized, inline(always))]
+    pub(crate) fn start<const EXACT: bool>(
+        &self,
+        isa: I,
+        ray: &RayLanes<I>,
+        geometry: Geometry<'_, I>,
+        medium: &MediumLanes<I>,
+    ) -> I::V {
+        if EXACT {
+            return transmittance(isa, ray, geometry, medium, &geometry.start(isa, self.r_a));
+        }
+        one_minus_exp(isa, medium.mu_t * ((geometry.lit.a.t - ray.t_min) + self.r_a)).1
+    }
+}
+
 /// The rule with `K` nodes.
 pub(crate) struct Rule<const K: usize>;
 
@@ -103,17 +139,12 @@ impl<const K: usize> Rule<K> {
         nodes
     };
 
-    /// (7.3): the integral of the integrand over the lit part of the ray \[1/m^2\].
+    /// (7.1), (7.2).
     #[cfg_attr(optimized, inline(always))]
-    pub(crate) fn radiance<I: Isa>(
-        isa: I,
-        ray: &RayLanes<I>,
-        geometry: Geometry<'_, I>,
-        medium: &MediumLanes<I>,
-    ) -> I::V {
+    pub(crate) fn variable<I: Isa>(isa: I, geometry: Geometry<'_, I>, medium: &MediumLanes<I>) -> Variable<I> {
         let c = |x| isa.splat(x);
         let (g, h, one) = (geometry, geometry.foot.h, c(1.0));
-        let Lobe { a2, b2, b_over_a, height } = medium.lobe;
+        let b_over_a = medium.lobe.b_over_a;
 
         // X at the ends (5.7), Y_b (5.8), Y_c (7.1).
         let [r_a, r_b] = [g.foot.r(g.foot.a), g.foot.r(g.foot.b)];
@@ -123,14 +154,30 @@ impl<const K: usize> Rule<K> {
         let y_b = g.lit.length * ((x_a + x_b) / (r_a + r_b));
         let reach = x_a.mul_add(c(OF_X_A), c(OF_LOBE) * h * b_over_a);
         let y_c = (one / medium.mu_t.mul_add(c(OF_MU_T), one / reach)).max(c(SHORTEST));
-        let depth = medium.mu_t * y_c;
         // 1/(1 + e), e/(1 + e), and d (7.2).
         let inv_sum = one / (y_b + y_c);
         let (w_0, s_b) = (y_b * inv_sum, y_c * inv_sum);
-        let d = w_0 / w_0.mul_add(depth.mul_add(c(OF_DEPTH), one), s_b * c(OF_E));
+        let d = w_0 / w_0.mul_add((medium.mu_t * y_c).mul_add(c(OF_DEPTH), one), s_b * c(OF_E));
+        let inv_size = one / h.max(x_a).max(y_c);
+        Variable { r_a, x_a, h_x_a, h_x_b, y_b, y_c, w_0, s_b, d, inv_size }
+    }
+
+    /// (7.3): the integral of the integrand over the lit part of the ray \[1/m^2\], given the transmittance at its `start`.
+    #[cfg_attr(optimized, inline(always))]
+    pub(crate) fn radiance<I: Isa>(
+        isa: I,
+        geometry: Geometry<'_, I>,
+        medium: &MediumLanes<I>,
+        variable: &Variable<I>,
+        start: I::V,
+    ) -> I::V {
+        let c = |x| isa.splat(x);
+        let (g, h, one) = (geometry, geometry.foot.h, c(1.0));
+        let Lobe { a2, b2, height, .. } = medium.lobe;
+        let Variable { x_a, h_x_a, h_x_b, y_b, y_c, w_0, s_b, d, inv_size, .. } = *variable;
+        let depth = medium.mu_t * y_c;
 
         // h, X_a and Y_c over the largest of them.
-        let inv_size = one / h.max(x_a).max(y_c);
         let (h_unit, x_unit, y_c_unit) = (h * inv_size, x_a * inv_size, y_c * inv_size);
         let units = Units { of_v: w_0 * y_c_unit, of_to_1: y_b * inv_size, h_x_a, h_x_b };
         let m_along = AlongV::new(isa, &g.cosine.ramp(isa), g.cosine.m_least * inv_size, &units);
@@ -167,7 +214,6 @@ impl<const K: usize> Rule<K> {
         // The units, Y_c/(1 + e), and the 4 of (5.12) or the 2 of (5.13).
         let unit = inv_size * (w_0 * y_c_unit) * I::V::select(g.cosine.has_normal, c(4.0), c(2.0));
         let mass = (sum * unit).min(c(f32::MAX));
-        let start = transmittance(isa, ray, g, medium, &g.start(isa, r_a));
         (medium.mu_s * start) * (height * mass)
     }
 }

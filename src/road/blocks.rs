@@ -3,17 +3,18 @@
 //! A pass reads the records of the pass before and writes its own; they stay in the nearest caches. The passes are
 //!
 //! 1. geometry, the part that is needed: the lit interval, then the foot of the perpendicular, hard lanes in f64, and spots in f64;
-//! 2. set-up, inversion and output of a density, in one pass for one variate per ray without spots and colours, else in one
-//!    each;
+//! 2. set-up, inversion and output of a density, a pass each: the shorter a pass, the more groups are in flight at a time. They are
+//!    one pass where set-ups are too large for the nearest cache, if none is used twice;
 //! 3. weights, the same for all densities.
 
 use crate::Precision;
 use crate::batch::{
     ChannelGroups, ConePlace, ConeRows, Counts, EmitterPlace, EmitterRows, Inputs, MOST_RAYS, MediaPlace, MediaRows,
-    Run, Turn,
+    MediumGroups, RayGroups, Run, Turn,
 };
 use crate::density::{Density, Kind, SetUp};
 use crate::geometry::{Cone, Cosine, Extent, Foot, Geometry, Lit, clip, find_foot, in_cone, in_f64, pick};
+use crate::integrand::MediumLanes;
 use crate::simd::{GROUPS, Isa, Lanes, MOST_LANES, Records, Room, none};
 use core::ops::Range;
 
@@ -194,6 +195,9 @@ impl<I: Isa> Places<I> {
 /// Calls `visit` for runs of the turns of a block, each at most as long as there is storage for records.
 pub(super) fn for_each_run<I: Isa>(block: &Block<'_, I>, mut visit: impl FnMut(Run<'_>)) {
     let Block { inputs, groups, .. } = block;
+    if inputs.per_ray == 1 {
+        return visit(block.one_turn());
+    }
     let mut turns = [Turn::default(); GROUPS];
     let mut count = 0;
     for record in 0..groups.len() {
@@ -210,6 +214,7 @@ pub(super) fn for_each_run<I: Isa>(block: &Block<'_, I>, mut visit: impl FnMut(R
 }
 
 /// The counts of a chunk, summed in the lanes: whole numbers that f32 can hold.
+#[derive(Clone, Copy)]
 pub(super) struct Tally<I: Isa> {
     valid: I::V,
     sampled: I::V,
@@ -278,7 +283,9 @@ fn in_single<I: Isa, const EXACT: bool, const FOOT: bool, const COSINE: bool, co
             let mut cosines = places.cosines.start();
             let (mut every, mut any) = (!none(isa), none(isa));
             for group in groups.clone() {
-                rays.prefetch(isa, group, AHEAD);
+                if inputs.prefetch {
+                    rays.prefetch(isa, group, AHEAD);
+                }
                 if DIFFER {
                     emitter = emitters.emitters(isa, group - groups.start);
                 }
@@ -402,7 +409,9 @@ fn in_double<I: Isa, const FOOT: bool, const COSINE: bool>(
             let (mut emitter, start) = (emitters.emitters(isa, 0), groups.start);
             let (mut lits, mut cosines, mut feet) = (places.lits.start(), places.cosines.start(), places.feet.start());
             for group in groups {
-                rays.prefetch(isa, group, AHEAD);
+                if inputs.prefetch {
+                    rays.prefetch(isa, group, AHEAD);
+                }
                 if emitters.differ() {
                     emitter = emitters.emitters(isa, group - start);
                 }
@@ -465,21 +474,46 @@ pub(super) fn set_up<'r, I: Isa, Home, D: Density<I>>(
     isa.vectorize::<Home, _>(
         #[cfg_attr(optimized, inline(always))]
         || {
-            let (rays, media) = (block.inputs.ray_groups::<I>(), block.media.means.groups(isa));
-            let mut medium = media.media(isa, 0);
-            let channels = block.channels(isa);
-            let geometries = block.geometries();
+            let mut for_set_up = ForSetUp::new(isa, block);
             records.fill(
                 block.groups.len(),
                 #[cfg_attr(optimized, inline(always))]
-                |record| {
-                    let group = block.groups.start + record;
-                    media.renew(isa, record, &mut medium);
-                    let geometry = geometries.get(record);
-                    let of_group = ChannelGroups::lanes(channels.as_ref(), isa, record);
-                    SetUp::new(isa, &rays.lanes(isa, group), geometry, &medium, of_group.as_ref())
-                },
+                |record| for_set_up.set_up(isa, record),
             )
         },
     )
+}
+
+/// What the set-ups of a block need, for a pass.
+pub(super) struct ForSetUp<'b, I: Isa> {
+    first: usize,
+    rays: RayGroups<'b, I>,
+    media: MediumGroups<'b, I>,
+    medium: MediumLanes<I>,
+    channels: Option<ChannelGroups<'b, I>>,
+    geometries: Geometries<'b, I>,
+}
+
+impl<'b, I: Isa> ForSetUp<'b, I> {
+    #[cfg_attr(optimized, inline(always))]
+    pub(super) fn new(isa: I, block: &'b Block<'b, I>) -> Self {
+        let media = block.media.means.groups(isa);
+        Self {
+            first: block.groups.start,
+            rays: block.inputs.ray_groups(),
+            medium: media.media(isa, 0),
+            media,
+            channels: block.channels(isa),
+            geometries: block.geometries(),
+        }
+    }
+
+    /// Sets up the density of a record.
+    #[cfg_attr(optimized, inline(always))]
+    pub(super) fn set_up<D: Density<I>>(&mut self, isa: I, record: usize) -> SetUp<I, D> {
+        self.media.renew(isa, record, &mut self.medium);
+        let ray = self.rays.lanes(isa, self.first + record);
+        let channels = ChannelGroups::lanes(self.channels.as_ref(), isa, record);
+        SetUp::new(isa, &ray, self.geometries.get(record), &self.medium, channels.as_ref())
+    }
 }

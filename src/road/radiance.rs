@@ -2,11 +2,11 @@
 
 use super::blocks::{Block, Tally, Wanted, for_each_block};
 use super::{Out, Task};
-use crate::batch::{Columns, Counts, Inputs, MediumRows};
+use crate::batch::{Columns, Counts, Inputs, MediumGroups, MediumRows};
 use crate::geometry::Extent;
-use crate::integral::rule::Rule;
+use crate::integral::rule::{Rule, Variable};
 use crate::scene::MOST_CHANNELS;
-use crate::simd::{GROUPS, Isa, Kernel, Lanes, Machine, none};
+use crate::simd::{GROUPS, Isa, Kernel, Lanes, Machine, Records, Room, none};
 use crate::{Nodes, Precision};
 
 /// The number of nodes, and the precision of the geometry.
@@ -55,6 +55,7 @@ impl<const K: usize> Kernel for OnGroups<'_, K> {
                         let out = &mut I::groups_mut(out)[block.groups.clone()];
                         for_each_radiance::<I, K>(
                             isa,
+                            precision,
                             block,
                             block.media.of_output(column, columns),
                             #[cfg_attr(optimized, inline(always))]
@@ -87,23 +88,60 @@ pub(super) struct Integrated<I: Isa> {
     pub(super) lit: I::Mask,
 }
 
-/// Calls `visit` with the integrals of each lane group of a block in some media.
+/// Calls `visit` with the integrals of each lane group of a block in some media: a pass for the variable, one for the
+/// transmittance at its start, and one for the nodes.
 #[cfg_attr(optimized, inline(always))]
 pub(super) fn for_each_radiance<I: Isa, const K: usize>(
     isa: I,
+    precision: Precision,
     block: &Block<'_, I>,
     media: MediumRows<'_>,
     mut visit: impl FnMut(usize, Integrated<I>),
 ) {
-    let (rays, media) = (block.inputs.ray_groups::<I>(), media.groups(isa));
-    let mut medium = media.media(isa, 0);
+    let media = media.groups(isa);
     let geometries = block.geometries();
-    for record in 0..block.groups.len() {
-        let (group, geometry) = (block.groups.start + record, geometries.get(record));
+    let mut medium = media.media(isa, 0);
+    let (mut variables, mut starts) = (Records::<Variable<I>>::new(), Records::<I::V>::new());
+    let variables = variables.fill(
+        block.groups.len(),
+        #[cfg_attr(optimized, inline(always))]
+        |record| {
+            media.renew(isa, record, &mut medium);
+            Rule::<K>::variable(isa, geometries.get(record), &medium)
+        },
+    );
+    let starts = match precision {
+        Precision::Exact => fill_starts::<I, true>(isa, block, &media, variables, &mut starts),
+        Precision::Fast => fill_starts::<I, false>(isa, block, &media, variables, &mut starts),
+    };
+    for (record, (variable, start)) in variables.iter().zip(starts).enumerate() {
+        let geometry = geometries.get(record);
         media.renew(isa, record, &mut medium);
         let valid = geometry.lit.valid & medium.valid;
         let lit = valid & geometry.lit(isa);
-        let radiance = Rule::<K>::radiance(isa, &rays.lanes(isa, group), geometry, &medium);
+        let radiance = Rule::<K>::radiance(isa, geometry, &medium, variable, *start);
         visit(record, Integrated { radiance: I::V::only(lit, radiance.min(isa.splat(f32::MAX))), valid, lit });
     }
+}
+
+/// The transmittances at the start of the lit parts.
+#[cfg_attr(optimized, inline(always))]
+fn fill_starts<'r, I: Isa, const EXACT: bool>(
+    isa: I,
+    block: &Block<'_, I>,
+    media: &MediumGroups<'_, I>,
+    variables: &[Variable<I>],
+    starts: &'r mut Records<I::V>,
+) -> &'r [I::V] {
+    let (rays, geometries) = (block.inputs.ray_groups::<I>(), block.geometries());
+    let mut medium = media.media(isa, 0);
+    starts.fill(
+        variables.len(),
+        #[cfg_attr(optimized, inline(always))]
+        |record| {
+            media.renew(isa, record, &mut medium);
+            let ray = rays.lanes(isa, block.groups.start + record);
+            variables[record].start::<EXACT>(isa, &ray, geometries.get(record), &medium)
+        },
+    )
 }

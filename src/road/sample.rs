@@ -1,9 +1,9 @@
 //! Samples a distance for every variate.
 
-use super::blocks::{AHEAD, Block, Geometries, SetUps, Tally, Wanted, for_each_block, for_each_run, set_up};
+use super::blocks::{AHEAD, Block, ForSetUp, SetUps, Tally, Wanted, for_each_block, for_each_run, set_up};
 use super::{Method, OfDensity, Out, Task, by_strategy};
 use crate::Precision;
-use crate::batch::{Counts, Inputs, MediumGroups, OfRuns, OfSamples, RayGroups, Samples, Turn};
+use crate::batch::{Counts, Inputs, OfRuns, OfSamples, Samples, Turn};
 use crate::density::{Density, Kind, SetUp};
 use crate::geometry::{Extent, Geometry, Point};
 use crate::integrand::{MediumLanes, integrand_r2};
@@ -45,8 +45,7 @@ impl<const WITH_WEIGHT_OR_R: bool> OfDensity for Drawing<WITH_WEIGHT_OR_R> {
         let mut places = Records::new();
         let mut points = Records::new();
         let mut pad = None;
-        // Spots and colours take the separate passes, so that their set-up is compiled once.
-        let once = inputs.per_ray == 1 && inputs.are_plain();
+        let once = inputs.per_ray == 1 && SetUps::<I, D>::SIZE < GROUPS;
         let wanted = Wanted {
             precision,
             extent: if WITH_WEIGHT_OR_R { Extent::Cosine } else { D::On::<I>::EXTENT },
@@ -57,8 +56,7 @@ impl<const WITH_WEIGHT_OR_R: bool> OfDensity for Drawing<WITH_WEIGHT_OR_R> {
                 let run = block.one_turn();
                 let u = run.values(inputs.given, &mut pad);
                 return OfSamples::of_run(&mut out, run, |mut out| {
-                    let once = Once { block, u };
-                    let points = once.write::<D, WITH_WEIGHT_OR_R>(isa, &mut points, &mut out, &mut tally);
+                    let points = at_once::<I, D, WITH_WEIGHT_OR_R>(isa, block, u, &mut points, &mut out, &mut tally);
                     if WITH_WEIGHT_OR_R {
                         weigh(isa, block, run.turns, points, &mut out);
                     }
@@ -81,81 +79,35 @@ impl<const WITH_WEIGHT_OR_R: bool> OfDensity for Drawing<WITH_WEIGHT_OR_R> {
     }
 }
 
-/// One variate per ray, without spots and colours: set-up, inversion and output in one pass, as no set-up is used twice.
-struct Once<'p, I: Isa> {
-    block: &'p Block<'p, I>,
-    u: &'p [f32],
-}
-
-impl<I: Isa> Once<'_, I> {
-    /// Writes `t` and `pdf`; keeps the points for weights and `r`.
-    fn write<'r, D: Kind, const KEEP: bool>(
-        &self,
-        isa: I,
-        points: &'r mut Records<Sampled<I>>,
-        out: &mut Samples<'_>,
-        tally: &mut Tally<I>,
-    ) -> &'r [Sampled<I>] {
-        isa.vectorize::<D, _>(
-            #[cfg_attr(optimized, inline(always))]
-            || {
-                let (mut stations, mut kept) = (self.stations(isa), points.start());
-                let (t, pdf) = (I::groups_mut(out.t), I::groups_mut(out.pdf));
-                for ((record, t), pdf) in (0..self.block.groups.len()).zip(t).zip(pdf) {
-                    let sampled = stations.go::<D>(isa, record, t, pdf, tally);
-                    if KEEP {
-                        kept.push(sampled);
-                    }
+/// Set-up, inversion and output in one pass, for one variate per ray; writes `t` and `pdf`, and keeps the points for weights and
+/// `r`.
+fn at_once<'r, I: Isa, D: Kind, const KEEP: bool>(
+    isa: I,
+    block: &Block<'_, I>,
+    u: &[f32],
+    points: &'r mut Records<Sampled<I>>,
+    out: &mut Samples<'_>,
+    tally: &mut Tally<I>,
+) -> &'r [Sampled<I>] {
+    isa.vectorize::<D, _>(
+        #[cfg_attr(optimized, inline(always))]
+        || {
+            let (mut for_set_up, geometries) = (ForSetUp::new(isa, block), block.geometries());
+            let (mut kept, mut counted) = (points.start(), *tally);
+            let columns = I::groups(u).iter().zip(I::groups_mut(out.t)).zip(I::groups_mut(out.pdf));
+            for (record, ((u, t), pdf)) in (0..block.groups.len()).zip(columns) {
+                let (geometry, set_up) = (geometries.get(record), for_set_up.set_up::<D::On<I>>(isa, record));
+                let placed = Placed::new(isa, geometry, &set_up, u);
+                let sampled = point_one::<I, D>(isa, geometry, &set_up, &placed, t, pdf, &mut counted);
+                if KEEP {
+                    kept.push(sampled);
                 }
-                kept.done();
-            },
-        );
-        points.written()
-    }
-
-    #[cfg_attr(optimized, inline(always))]
-    fn stations(&self, isa: I) -> Stations<'_, I> {
-        let Block { inputs, groups, .. } = self.block;
-        let media = self.block.media.means.groups(isa);
-        Stations {
-            first: groups.start,
-            rays: inputs.ray_groups(),
-            geometries: self.block.geometries(),
-            u: &I::groups(self.u)[..groups.len()],
-            medium: media.media(isa, 0),
-            media,
-        }
-    }
-}
-
-/// The inputs of the passes from geometry to output.
-struct Stations<'p, I: Isa> {
-    first: usize,
-    rays: RayGroups<'p, I>,
-    geometries: Geometries<'p, I>,
-    u: &'p [I::Group],
-    media: MediumGroups<'p, I>,
-    medium: MediumLanes<I>,
-}
-
-impl<I: Isa> Stations<'_, I> {
-    #[cfg_attr(optimized, inline(always))]
-    fn go<D: Kind>(
-        &mut self,
-        isa: I,
-        record: usize,
-        t: &mut I::Group,
-        pdf: &mut I::Group,
-        tally: &mut Tally<I>,
-    ) -> Sampled<I> {
-        let (group, geometry) = (self.first + record, self.geometries.get(record));
-        self.media.renew(isa, record, &mut self.medium);
-        let ray = self.rays.lanes(isa, group);
-        let geometry = Geometry { cone: None, ..geometry };
-        let set_up = SetUp::<I, D::On<I>>::new(isa, &ray, geometry, &self.medium, None);
-        let placed = Placed::new(isa, geometry, &set_up, &self.u[record]);
-        point_one::<I, D>(isa, geometry, &set_up, &placed, t, pdf, tally)
-    }
+            }
+            *tally = counted;
+            kept.done();
+        },
+    );
+    points.written()
 }
 
 /// The place of a variate.
@@ -169,7 +121,6 @@ pub(super) struct Placed<I: Isa, P> {
 impl<I: Isa, P> Placed<I, P> {
     #[cfg_attr(optimized, inline(always))]
     fn new<D: Density<I, Place = P>>(isa: I, geometry: Geometry<'_, I>, set_up: &SetUp<I, D>, u: &I::Group) -> Self {
-        isa.prefetch(u, AHEAD);
         let u = isa.load(u);
         let place = set_up.density.draw(isa, geometry, u);
         Self { place, valid: set_up.valid & isa.splat(0.0).le(u) & u.le(isa.splat(1.0)) }
@@ -198,6 +149,9 @@ pub(super) fn draw<'r, I: Isa, D: Kind>(
                 #[cfg_attr(optimized, inline(always))]
                 |index| {
                     let record = turns[index].record;
+                    if block.inputs.prefetch {
+                        isa.prefetch(&u[index], AHEAD);
+                    }
                     Placed::new(isa, geometries.get(record), &set_ups[record], &u[index])
                 },
             )
@@ -237,13 +191,20 @@ impl<I: Isa, D: Kind> Points<'_, I, D> {
                 let ((t, pdf), geometries) = (self.groups(out), self.block.geometries());
                 let (places, set_ups) = (&self.places[..t.len()], &self.set_ups[..self.block.groups.len()]);
                 let mut kept = points.start();
+                // A copy, which stays in registers.
+                let mut counted = *tally;
                 for (((turn, place), t), pdf) in self.turns.iter().zip(places).zip(t).zip(pdf) {
+                    if self.block.inputs.prefetch {
+                        isa.prefetch(t, AHEAD);
+                        isa.prefetch(pdf, AHEAD);
+                    }
                     let (geometry, set_up) = (geometries.get(turn.record), &set_ups[turn.record]);
-                    let sampled = point_one::<I, D>(isa, geometry, set_up, place, t, pdf, tally);
+                    let sampled = point_one::<I, D>(isa, geometry, set_up, place, t, pdf, &mut counted);
                     if KEEP {
                         kept.push(sampled);
                     }
                 }
+                *tally = counted;
                 kept.done();
             },
         );
@@ -269,8 +230,6 @@ fn point_one<I: Isa, D: Kind>(
     tally: &mut Tally<I>,
 ) -> Sampled<I> {
     let (SetUp { density, lit, .. }, Placed { place, valid }) = (set_up, placed);
-    isa.prefetch(t, AHEAD);
-    isa.prefetch(pdf, AHEAD);
     let sampled = *valid & *lit;
     let drawn = density.point(isa, geometry, place);
     isa.store(I::V::only(sampled, drawn.point.t), t);

@@ -1,7 +1,7 @@
 //! Sampling up to a stage, to time the stages.
 //!
-//! Each stage is a pass that writes records, so that its time is the difference between two runs. With one variate per ray,
-//! and without spots and colours, sampling has set-up, inversion and output in one pass without records, which takes less than their sum.
+//! Each stage is a pass that writes records, so that its time is the difference between two runs. With one variate per ray the
+//! Taylor densities have set-up, inversion and output in one pass without records, which takes less than their sum.
 
 use super::blocks::{SetUps, Wanted, for_each_block, for_each_run, set_up};
 use super::sample::draw;

@@ -171,7 +171,7 @@ fn legend(name: &str) -> &'static str {
         "cdf" => "|CDF(t) - u|",
         "cdf_resolved" => "the same where half an ulp of t changes the CDF by 2^-18 at most",
         "cdf_floor" => "cdf of exact arithmetic that is rounded to f32 once; on every 16th ray",
-        "cdf_at_t" => "how far Sampler::cdf at t is from the CDF there",
+        "cdf_at_t" => "how far Sampler::cdf at t is from the CDF there, beyond what 2^-44 of the distances change it",
         "cdf_beyond_t" => "how far u is from the CDFs of all distances that round to t",
         "offset" => "error of the distance from the nearer end of the interval, beyond the rounding of t [ulp]",
         "offset_floor" => "offset of exact arithmetic on geometry that is rounded to f32; on every 16th ray [ulp]",

@@ -22,6 +22,8 @@ const VARIATE: f64 = 1.0 / (1 << 20) as f64;
 const OFF_THE_MASS: f64 = 1e-12;
 /// Geometry in f64 may move a point by this share of the distances in it.
 const GEOMETRY: f64 = 8.0 * f64::EPSILON;
+/// By this share the ends of the lit interval, which are kept as two f32, may be off.
+const ENDS: f64 = 1.0 / (1u64 << 44) as f64;
 /// The least `h`, of the distance to the emitter, that f64 geometry leaves all digits of f32.
 const NEAREST: f64 = 1e-7;
 /// The `h` of an emitter that is the ray's origin, rounded to f32: the kernels have 5e-8 more \[m\].
@@ -314,7 +316,8 @@ impl Row {
         let cdf = (scene.cdf(strategy, t.into()) - u).abs();
         let rounding = Rounding::new(&scene, sharpest_edge(&scene, &ray, &emitter), t);
         let cdfs = rounding.ends.map(|t| scene.cdf(strategy, t));
-        let moved = [f64::from(t) - rounding.moved, f64::from(t) + rounding.moved];
+        let off = rounding.moved * (ENDS / GEOMETRY);
+        let moved = [f64::from(t) - off, f64::from(t) + off];
         // A plane where N = 0 is known much better: what is close to it counts little.
         let edge = if emitter.cone().is_some() { rounding.moved } else { 0.0 };
         let integrand = integrand_error(&scene, t.into(), edge, integrand.into());
