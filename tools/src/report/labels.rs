@@ -24,8 +24,8 @@ impl Area {
 ///
 /// Each in turn takes the best of the places around its point; the nearer ones first.
 pub(super) fn beside(points: &[(Corner, Corner)], frame: Area, gap: i32, taken: &[Area]) -> Vec<Area> {
-    let marks = points.iter().map(|&((x, y), _)| Area([x - gap, y - gap, x + gap, y + gap]));
-    let mut taken: Vec<Area> = taken.iter().copied().chain(marks).collect();
+    let marks: Vec<Area> = points.iter().map(|&((x, y), _)| Area([x - gap, y - gap, x + gap, y + gap])).collect();
+    let mut taken = taken.to_vec();
     let mut placed = Vec::new();
     for &((x, y), (width, height)) in points {
         let (half_width, half_height) = (width / 2, height / 2);
@@ -41,9 +41,12 @@ pub(super) fn beside(points: &[(Corner, Corner)], frame: Area, gap: i32, taken: 
             Area([x - half_width, y - half_height, x + half_width, y + half_height])
         };
         let cost = |(rank, place): &(usize, Area)| {
-            let covered: i32 = taken.iter().map(|other| place.common(*other)).sum();
-            // A little is covered rather than a name put far off.
-            covered + 2 * (place.size() - place.common(frame)) + *rank as i32 * place.size() / 100
+            let covered = |others: &[Area]| others.iter().map(|other| place.common(*other)).sum::<i32>();
+            // A little of a name is covered rather than a name put far off, but hardly any of a mark.
+            covered(&taken)
+                + 8 * covered(&marks)
+                + 2 * (place.size() - place.common(frame))
+                + *rank as i32 * place.size() / 100
         };
         let best =
             places.into_iter().map(area).enumerate().min_by_key(cost).map_or(Area([x, y, x, y]), |(_, area)| area);
