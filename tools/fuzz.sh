@@ -7,8 +7,9 @@ cd "$(dirname "$0")/.."
 
 target=$1 seconds=$2 sanitizer=${3:-none}
 mkdir -p "fuzz/corpus/$target"
+# Edges are what tells inputs apart; how often each is passed is a matter of the number of rays.
 seeds=(fuzz/seeds)
 case $target in npz | c) seeds=() ;; esac
 cargo +nightly fuzz run --release --sanitizer "$sanitizer" --no-trace-compares "$target" \
     "fuzz/corpus/$target" "${seeds[@]}" -- \
-    -max_total_time="$seconds" -max_len=1024 -len_control=0 -print_final_stats=1
+    -max_total_time="$seconds" -max_len=1024 -len_control=0 -use_counters=0 -reduce_inputs=0 -print_final_stats=1
