@@ -47,14 +47,8 @@ use wavefront::Wavefront;
 pub type Target = fn(&[u8]);
 
 /// Every target, by name.
-pub const TARGETS: [(&str, Target); 6] = [
-    ("sample", sample),
-    ("densities", densities),
-    ("radiance", radiance),
-    ("choose", choose),
-    ("c", c),
-    ("npz", npz),
-];
+pub const TARGETS: [(&str, Target); 6] =
+    [("sample", sample), ("densities", densities), ("radiance", radiance), ("choose", choose), ("c", c), ("npz", npz)];
 
 /// `Sampler::sample` on the batch that `data` describes.
 ///

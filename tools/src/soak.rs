@@ -68,8 +68,7 @@ fn measure(args: &Args) -> Figures {
     while more(figures.rounds) {
         let step = args.rounds.map_or(STEP, |rounds| STEP.min(rounds - figures.rounds));
         let first = args.first + figures.rounds;
-        let tried: Vec<_> =
-            (first..first + step).into_par_iter().map(|round| (round, guarded(args, round))).collect();
+        let tried: Vec<_> = (first..first + step).into_par_iter().map(|round| (round, guarded(args, round))).collect();
         tried.into_iter().for_each(|(round, tried)| figures.add(round, tried));
     }
     figures
@@ -115,12 +114,21 @@ impl fmt::Display for Figures {
         told.iter().try_for_each(|told| writeln!(f, "BROKEN: {told}"))?;
         writeln!(f, "seed {seed}, {rounds} rounds: {rays} rays, {failures} failures")?;
         if *bits {
-            writeln!(f, "  results     {results}: values of a call on a backend, compared with those of another with fused")?;
+            writeln!(
+                f,
+                "  results     {results}: values of a call on a backend, compared with those of another with fused"
+            )?;
             return writeln!(f, "              multiply-add or of the batch in two parts, and finite and in range");
         }
-        writeln!(f, "  results     {results}: values of a call on a backend, compared with those of the other backends with")?;
+        writeln!(
+            f,
+            "  results     {results}: values of a call on a backend, compared with those of the other backends with"
+        )?;
         writeln!(f, "              fused multiply-add and of the batch in two parts, and finite and in range")?;
-        writeln!(f, "  compared    {compared} rays with the oracle: |CDF - u| and the error of cdf, within their bounds")
+        writeln!(
+            f,
+            "  compared    {compared} rays with the oracle: |CDF - u| and the error of cdf, within their bounds"
+        )
     }
 }
 
@@ -133,7 +141,8 @@ struct Tried {
 
 /// A round, whose panic is a failure.
 fn guarded(args: &Args, round: u64) -> Result<Tried, String> {
-    let tried = || if args.bits { bits::run(&mut random(args.seed, round)) } else { Round::new(args.seed, round).run() };
+    let tried =
+        || if args.bits { bits::run(&mut random(args.seed, round)) } else { Round::new(args.seed, round).run() };
     catch_unwind(tried).unwrap_or_else(|_| Err("panic".to_owned()))
 }
 
