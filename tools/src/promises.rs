@@ -287,7 +287,7 @@ impl Outcome {
         let counts = outcome.counts.iter().map(|counts| counts.unwrap_or_default());
         let counts = counts.flat_map(|c| [c.sampled, c.empty, c.invalid, c.bisected]);
         let numbers = values.map(|value| value.to_bits().into()).chain(counts.map(|count| count as u64));
-        numbers.fold(hash, |hash, number| variates::bits(hash, number))
+        numbers.fold(hash, variates::bits)
     }
 
     /// Equal bits and equal counts.
