@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Fuzzes a target for so many seconds: tools/fuzz.sh TARGET SECONDS [SANITIZER]
-# Without a sanitizer unless one is named (address), as the library has `unsafe` in src/simd alone: so it is ten times faster.
+# Without a sanitizer unless one is named (address), as the library has `unsafe` in src/simd alone.
 # Takes a nightly toolchain and cargo-fuzz. What it learns lies in fuzz/corpus, what breaks a promise in fuzz/artifacts.
 set -euo pipefail
 cd "$(dirname "$0")/.."
