@@ -90,7 +90,8 @@ impl<D: Dice> Structs<D> {
         let stride = match self.dice.below(64) {
             0..32 => 0,
             32 => self.within(0, 7).min(most),
-            _ => self.within(element.min(most), most.min(element + 60).max(element.min(most))),
+            // Up to 60 bytes between elements.
+            _ => self.within(element, most.min(element.saturating_add(60))),
         };
         let step = stride.max(element);
         let length = count.saturating_mul(step);
