@@ -125,12 +125,12 @@ impl fmt::Display for Figures {
         }
         writeln!(
             f,
-            "  results     {results} values: finite, in range, the same for the batch in two parts, and the same on all"
+            "  results     {results}: values of a call on a backend, compared with those of the other backends with"
         )?;
-        writeln!(f, "              backends with fused multiply-add")?;
+        writeln!(f, "              fused multiply-add and of the batch in two parts, and finite and in range")?;
         writeln!(
             f,
-            "  compared    {compared} rays with the oracle: |CDF(t) - u| and the error of cdf are within their bounds"
+            "  compared    {compared} rays with the oracle: |CDF - u| and the error of cdf, within their bounds"
         )
     }
 }
