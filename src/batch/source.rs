@@ -121,11 +121,27 @@ impl<'r, const K: usize> Rows<'r, K> {
         }
     }
 
-    /// Some of the numbers.
+    /// Some of the numbers. No closure: kernels call this.
+    #[cfg_attr(optimized, inline(always))]
     pub(super) fn select<const J: usize>(&self, numbers: [usize; J]) -> Rows<'r, J> {
+        let mut j = 0;
         match self {
-            Self::One(row) => Rows::One(numbers.map(|k| row[k])),
-            Self::Each(columns) => Rows::Each(numbers.map(|k| columns[k])),
+            Self::One(row) => {
+                let mut some = [0.0; J];
+                while j < J {
+                    some[j] = row[numbers[j]];
+                    j += 1;
+                }
+                Rows::One(some)
+            }
+            Self::Each(columns) => {
+                let mut some = [columns[0]; J];
+                while j < J {
+                    some[j] = columns[numbers[j]];
+                    j += 1;
+                }
+                Rows::Each(some)
+            }
         }
     }
 
