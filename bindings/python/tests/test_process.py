@@ -41,7 +41,15 @@ def test_other_threads_run_during_a_call():
     assert called == [True]
 
 
-@pytest.mark.usefixtures("patient")
+@pytest.fixture
+def interruptible():
+    """A process that was started in the background may ignore interrupts."""
+    handler = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, handler)
+
+
+@pytest.mark.usefixtures("patient", "interruptible")
 def test_an_interrupt_during_a_call_is_raised():
     started = threading.Event()
 
