@@ -437,7 +437,7 @@ impl<I: Isa> Foot<I> {
         (point.exact_t_prime() - (t_min.widen() - self.exact_t_h())) + self.exact_r(isa, point)
     }
 
-    /// The same in f32: `|t_min - t_h|` is at most the path.
+    /// (1.13) in f32. No term is larger than the path, so that the error is a few roundings of the path.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn rounded_path(&self, t_min: I::V, point: &Point<I>) -> I::V {
         (point.t_prime - ((t_min - self.t_h) - self.t_h_low)) + point.r

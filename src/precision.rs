@@ -30,7 +30,7 @@ use std::str::FromStr;
 /// | rays wrongly taken for lit or dark | all families | none | where the light is below 1e-5 of that of an emitter faced squarely |
 ///
 /// In both precisions the pdf is that of the density that is sampled, so that an estimate of your own integrand is unbiased, except
-/// for light that is misjudged. Weights also have the error of the integrand, in `Fast` 3e-7 of the optical depth besides.
+/// for light that is misjudged. Weights also have the error of the integrand; in `Fast` the optical depth adds 3e-7 of itself.
 ///
 /// # Arithmetic
 /// Both precisions compute the geometry of a ray in f64 where f32 is not enough for them: `Fast` where the ray's line passes the

@@ -46,14 +46,15 @@ impl<const WITH_WEIGHT_OR_R: bool> OfDensity for Drawing<WITH_WEIGHT_OR_R> {
         let mut points = Records::new();
         let mut pad = None;
         // Set-ups that do not fit the nearest cache, and are used once.
-        let once = inputs.per_ray == 1 && SetUps::<I, D>::SIZE < GROUPS;
+        let once = SetUps::<I, D>::SIZE < GROUPS && inputs.per_ray == 1;
         let wanted = Wanted {
             precision,
             extent: if WITH_WEIGHT_OR_R { Extent::Cosine } else { D::On::<I>::EXTENT },
             records: if once { GROUPS } else { SetUps::<I, D>::SIZE },
         };
         for_each_block(isa, inputs, wanted, |block| {
-            if once {
+            // The constant stands here too: without it the compiler would build the pass for every density.
+            if SetUps::<I, D>::SIZE < GROUPS && once {
                 let run = block.one_turn();
                 let u = run.values(inputs.given, &mut pad);
                 return OfSamples::of_run(&mut out, run, |mut out| {

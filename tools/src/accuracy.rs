@@ -172,7 +172,7 @@ fn legend(name: &str) -> &'static str {
         "cdf_resolved" => "the same where half an ulp of t changes the CDF by 2^-18 at most",
         "cdf_floor" => "cdf of exact arithmetic that is rounded to f32 once; on every 16th ray",
         "cdf_at_t" => {
-            "how far Sampler::cdf at t is from the CDF there, beyond what a change of the distances by 2^-44 changes it"
+            "how far Sampler::cdf at t is from the CDF there, beyond the change of the CDF when distances change by 2^-44 of themselves"
         }
         "cdf_beyond_t" => "how far u is from the CDFs of all distances that round to t",
         "offset" => "error of the distance from the nearer end of the interval, beyond the rounding of t [ulp]",
