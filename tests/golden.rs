@@ -2,7 +2,8 @@
 //! and the file in `tests/golden` takes the lines that this test prints.
 //!
 //! `bits.txt`: a line is the hash of everything that a sampler gives for one large batch (`tests/dependent`); `forms.txt`: of all
-//! that a sampler or an integral gives for small batches of hard values in every form that a call takes (`airlight_tools::room`).
+//! that a sampler or an integral gives for small batches of hard values in every form that a call takes (`airlight_tools::room`);
+//! `hard.txt`: for small batches of hard rays (`airlight_tools::hard`).
 //! `fused` are backends with fused multiply-add, of which all give the same bits, `plain` the others.
 
 #[allow(dead_code, unreachable_pub, reason = "it is a crate of its own")]
@@ -11,11 +12,12 @@ mod dependent;
 
 use airlight::{Backend, Integral, Nodes, Precision};
 use airlight_tools::backends::distinct;
-use airlight_tools::batch::{Batch, FORMS};
+use airlight_tools::batch::{Batch, Columns, FORMS};
+use airlight_tools::hard;
 use airlight_tools::promises::Choices;
 use airlight_tools::room::{self, Random};
 use airlight_tools::samplers;
-use dependent::{Columns, everything};
+use dependent::everything;
 
 fn rounding(backend: Backend) -> &'static str {
     if backend.is_fused() { "fused" } else { "plain" }
@@ -29,7 +31,7 @@ fn unchanged(lines: &[String], golden: &str) {
 
 #[test]
 fn bits_of_a_large_batch_are_what_they_were() {
-    let columns = Columns::new();
+    let columns = dependent::Columns::new();
     let mut lines = Vec::new();
     for backend in distinct() {
         for sampler in samplers::all().map(|sampler| sampler.with_backend(backend)) {
@@ -40,23 +42,16 @@ fn bits_of_a_large_batch_are_what_they_were() {
     unchanged(&lines, include_str!("golden/bits.txt"));
 }
 
-/// A batch of every form, and a few emitters to choose from.
-fn batches() -> Vec<(Batch, Choices)> {
-    let batch = |form: usize| {
-        let mut random = Random::new(form as u64);
-        let (n, per_ray) = (1 + random.below(70) as usize, [1, 1, 2, 7][form % 4]);
-        let mut columns = room::columns(&mut random, n, per_ray);
-        room::spoil(&mut columns, &mut random, 128);
-        let table: Vec<_> = columns.emitters().into_iter().take(5).collect();
-        let weights = table.iter().map(|_| random.pick(&[0.0, 0.5, 3.0])).collect();
-        (columns.batch(form, |n| random.below(n)), Choices { table, weights })
-    };
-    (0..FORMS).map(batch).collect()
+/// A batch in a form, and a few emitters to choose from.
+fn in_form(mut columns: Columns, form: usize, random: &mut Random) -> (Batch, Choices) {
+    room::spoil(&mut columns, random, 128);
+    let table: Vec<_> = columns.emitters().into_iter().take(5).collect();
+    let weights = table.iter().map(|_| random.pick(&[0.0, 0.5, 3.0])).collect();
+    (columns.batch(form, |n| random.below(n)), Choices { table, weights })
 }
 
-#[test]
-fn bits_of_every_form_are_what_they_were() {
-    let batches = batches();
+/// The hashes of all that samplers and integrals give for the batches.
+fn hashes(batches: &[(Batch, Choices)]) -> Vec<String> {
     let mut lines = Vec::new();
     for backend in distinct() {
         let mut add = |name: String, hash: &dyn Fn(&(Batch, Choices)) -> u64| {
@@ -72,5 +67,28 @@ fn bits_of_every_form_are_what_they_were() {
             add(format!("{nodes} nodes {precision}"), &|(batch, choices)| batch.hash_of_integral(&integral, choices));
         }
     }
-    unchanged(&lines, include_str!("golden/forms.txt"));
+    lines
+}
+
+#[test]
+fn bits_of_every_form_are_what_they_were() {
+    let batch = |form: usize| {
+        let mut random = Random::new(form as u64);
+        let (n, per_ray) = (1 + random.below(70) as usize, [1, 1, 2, 7][form % 4]);
+        in_form(room::columns(&mut random, n, per_ray), form, &mut random)
+    };
+    let batches: Vec<_> = (0..FORMS).map(batch).collect();
+    unchanged(&hashes(&batches), include_str!("golden/forms.txt"));
+}
+
+/// Columns of emitters with cones and without, in columns of media with one channel, three and four.
+#[test]
+fn bits_of_hard_rays_are_what_they_were() {
+    let batch = |index: usize| {
+        let mut random = Random::new(1000 + index as u64);
+        let form = [10, 11, 10, 11, 26, 42][index % 6];
+        in_form(hard::columns(&mut random, 64, 1), form, &mut random)
+    };
+    let batches: Vec<_> = (0..24).map(batch).collect();
+    unchanged(&hashes(&batches), include_str!("golden/hard.txt"));
 }

@@ -93,21 +93,24 @@ fn few_rays_on_every_backend() {
     }
 }
 
-/// Nothing is lost where the variates of a ray are cut into chunks.
+/// Nothing is lost where the variates of a ray are cut into chunks: more samples than f32 can count, an odd number of them.
 #[test]
 fn any_number_is_counted() {
-    let per_ray = 3 * (1 << 16) + 5;
-    let columns = columns(32);
-    let (rays, emitters, media) = (columns.rays(), columns.emitters(), columns.media());
-    let sampler = Sampler::new(Strategy::EquiAngular);
-    let [of_many, of_one] = [per_ray, 1].map(|k| {
-        let u = vec![0.5; 32 * k];
-        let (mut t, mut pdf) = (vec![f32::NAN; u.len()], vec![f32::NAN; u.len()]);
-        let mut samples = Samples::new(&mut t, &mut pdf);
-        sampler.sample(&rays, &emitters, &media, &u, &mut samples).unwrap()
+    let [lit, dark, invalid] = [Some(true), Some(false), None].map(|kind| {
+        let is_lit = |case: &Case| case.scene().ok().map(|scene| scene.lit().is_some());
+        let cases = (0..).flat_map(|i| [Family::Generic, Family::Ray].map(|family| family.case(6, i)));
+        cases.into_iter().find(|case| is_lit(case) == kind).unwrap()
     });
-    assert!(of_one.sampled > 0 && of_one.empty > 0 && of_one.invalid > 0, "{of_one:?}");
-    assert_eq!(of_many, sum(std::iter::repeat_n(of_one, per_ray)));
+    let (sampled, per_ray) = (29, (1 << 24) / 29 + 1);
+    assert!(sampled * per_ray > 1 << f32::MANTISSA_DIGITS && sampled * per_ray % 2 == 1);
+    let columns = Columns::new(&[&[lit; 29][..], &[dark; 2], &[invalid]].concat());
+    let u = vec![0.5; 32 * per_ray];
+    let (mut t, mut pdf) = (vec![f32::NAN; u.len()], vec![f32::NAN; u.len()]);
+    let mut samples = Samples::new(&mut t, &mut pdf);
+    let (rays, emitters, media) = (columns.rays(), columns.emitters(), columns.media());
+    let counts = Sampler::new(Strategy::EquiAngular).sample(&rays, &emitters, &media, &u, &mut samples).unwrap();
+    let expected = [sampled * per_ray, 2 * per_ray, per_ray];
+    assert_eq!([counts.sampled, counts.empty, counts.invalid], expected);
 }
 
 #[test]

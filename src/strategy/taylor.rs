@@ -36,7 +36,7 @@ use crate::geometry::{Angle, Extent, Geometry, Point, RayLanes};
 use crate::integrand::{ChannelLanes, MediumLanes};
 use crate::inversion::{At, solve};
 use crate::simd::math::{SIN, angle_of, horner, horner_lanes, sin_cos, tan};
-use crate::simd::{Double, Isa, Lanes, Number, Records};
+use crate::simd::{Double, GROUPS, Isa, Lanes, Number, Records};
 use core::marker::PhantomData;
 
 /// The order of the series of N (4.6). It is odd, as the order of the product is: even and odd terms are summed in pairs.
@@ -100,7 +100,8 @@ pub(crate) struct Place<I: Isa> {
 impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
     const EXTENT: Extent = Extent::Cosine;
     type Place = Place<I>;
-    type SetUps = Records<SetUp<I, Self>, 2>;
+    // 2, and 1 in an unoptimised build: fewer than the groups of a block, as they do not fit the nearest cache.
+    type SetUps = Records<SetUp<I, Self>, { GROUPS.div_ceil(8) }>;
 
     #[cfg_attr(optimized, inline(always))]
     fn new(

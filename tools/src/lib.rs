@@ -11,6 +11,7 @@ pub mod contender;
 mod draw;
 pub mod errors;
 pub mod families;
+pub mod hard;
 pub mod promises;
 pub mod renderer;
 pub mod room;
