@@ -42,10 +42,10 @@ fn bits_of_a_large_batch_are_what_they_were() {
     unchanged(&lines, include_str!("golden/bits.txt"));
 }
 
-/// A batch in a form, and a few emitters to choose from.
-fn in_form(mut columns: Columns, form: usize, random: &mut Random) -> (Batch, Choices) {
+/// A batch in a form, and at most so many emitters to choose from.
+fn in_form(mut columns: Columns, form: usize, most: usize, random: &mut Random) -> (Batch, Choices) {
     room::spoil(&mut columns, random, 128);
-    let table: Vec<_> = columns.emitters().into_iter().take(5).collect();
+    let table: Vec<_> = columns.emitters().into_iter().take(most).collect();
     let weights = table.iter().map(|_| random.pick(&[0.0, 0.5, 3.0])).collect();
     (columns.batch(form, |n| random.below(n)), Choices { table, weights })
 }
@@ -75,19 +75,21 @@ fn bits_of_every_form_are_what_they_were() {
     let batch = |form: usize| {
         let mut random = Random::new(form as u64);
         let (n, per_ray) = (1 + random.below(70) as usize, [1, 1, 2, 7][form % 4]);
-        in_form(room::columns(&mut random, n, per_ray), form, &mut random)
+        in_form(room::columns(&mut random, n, per_ray), form, 5, &mut random)
     };
     let batches: Vec<_> = (0..FORMS).map(batch).collect();
     unchanged(&hashes(&batches), include_str!("golden/forms.txt"));
 }
 
-/// Columns of emitters with cones and without, in columns of media with one channel, three and four.
+/// Columns of emitters with cones and without, in columns of media with one channel, three and four. Of so many emitters to choose
+/// from, several share a slot of the search.
 #[test]
 fn bits_of_hard_rays_are_what_they_were() {
     let batch = |index: usize| {
         let mut random = Random::new(1000 + index as u64);
         let form = [10, 11, 10, 11, 26, 42][index % 6];
-        in_form(hard::columns(&mut random, 64, 1), form, &mut random)
+        let most = if index % 8 == 0 { 70 } else { 5 };
+        in_form(hard::columns(&mut random, 64, 1), form, most, &mut random)
     };
     let batches: Vec<_> = (0..24).map(batch).collect();
     unchanged(&hashes(&batches), include_str!("golden/hard.txt"));

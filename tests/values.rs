@@ -30,6 +30,28 @@ fn media() {
 }
 
 #[test]
+fn a_coloured_medium_has_its_channels_and_their_mean() {
+    let medium = Medium::coloured([0.1, 0.2, 0.0], [0.3, 0.1, 1.0], 0.5).unwrap();
+    assert_eq!(medium.channels(), 3);
+    assert_eq!(medium.channel(1), Some(Medium::new(0.2, 0.1, 0.5).unwrap()));
+    assert_eq!(medium.channel(3), None);
+    let third = |sum: f64| (sum / 3.0) as f32;
+    let (a, s) = ([0.1f32, 0.2, 0.0], [0.3f32, 0.1, 1.0]);
+    let [a, s] = [a, s].map(|of| third(of.map(f64::from).iter().sum()));
+    assert_eq!((medium.mu_a(), medium.mu_s(), medium.mu_t()), (a, s, a + s));
+    assert_eq!(medium.mean(), Medium::new(a, s, 0.5).unwrap());
+    // of the channels that scatter, or of all
+    let medium = Medium::coloured([0.5, 9.0, 0.7, 8.0], [2.0, 0.0, 4.0, 0.0], 0.0).unwrap();
+    assert_eq!((medium.mu_a(), medium.mu_s()), (0.6, 3.0));
+    assert_eq!(Medium::coloured([1.0, 2.0, 3.0], [0.0; 3], 0.0).unwrap().mu_t(), 2.0);
+    // grey
+    let grey = Medium::new(0.1, 0.2, 0.3).unwrap();
+    assert_eq!(Medium::coloured([0.1], [0.2], 0.3).unwrap(), grey);
+    assert_eq!((grey.channels(), grey.channel(0), grey.channel(1), grey.mean()), (1, Some(grey), None, grey));
+    assert_eq!(Medium::coloured([0.1; 3], [0.2; 3], 0.3).unwrap().mean(), grey);
+}
+
+#[test]
 fn samplers_and_integrals() {
     let threads = [Threads::Pool, Threads::at_most(3), Threads::Caller];
     for (backend, threads) in Backend::available().flat_map(|backend| threads.map(|threads| (backend, threads))) {

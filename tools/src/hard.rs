@@ -14,8 +14,9 @@ pub fn columns(random: &mut Random, n: usize, per_ray: usize) -> Columns {
         let axes = random.below(3) == 0;
         let metre = if random.below(4) == 0 { power(random, 55) } else { 1.0 };
         let origin = metre * if random.below(2) == 0 { Vec3::ZERO } else { 5.0 * Vec3::from(random.unit(axes)) };
-        let d = Vec3::from(random.unit(axes));
-        let across = d.cross(random.unit(axes).into()).normalize_or(d.any_orthonormal_vector());
+        let unit = Vec3::from(random.unit(axes));
+        let across = unit.cross(random.unit(axes).into()).normalize_or(unit.any_orthonormal_vector());
+        let d = stretched(random, unit);
 
         let t_min = if random.below(2) == 0 { 0.0 } else { metre * random.between(0.0, 3.0) };
         let t_max = match random.below(8) {
@@ -29,19 +30,22 @@ pub fn columns(random: &mut Random, n: usize, per_ray: usize) -> Columns {
             let share = random.between(0.0, 1.0);
             t_min + length * random.pick(&[0.0, 1.0, 0.5, -0.5, 1.5, share, share, share])
         };
-        let position = origin + place(random) * d + metre * 5.0 * small(random) * across;
+        let aside = if random.below(16) == 0 { 0.0 } else { metre * 5.0 * small(random) };
+        let position = origin + place(random) * d + aside * across;
 
-        let towards = (origin + place(random) * d - position).normalize_or(d);
+        let towards = (origin + place(random) * d - position).normalize_or(unit);
         let axis = match random.below(6) {
             0 => Vec3::ZERO,
             1 => Vec3::from(random.unit(axes)),
-            2 => random.pick(&[1.0, -1.0]) * d,
+            2 => random.pick(&[1.0, -1.0]) * unit,
             // The emitter's plane meets the ray at that place, or is next to the ray.
-            3 => random.pick(&[1.0, -1.0]) * (d - towards.dot(d) * towards).normalize_or(d),
-            4 => (random.pick(&[1.0, -1.0]) * across + small(random) * d).normalize(),
+            3 => random.pick(&[1.0, -1.0]) * (unit - towards.dot(unit) * towards).normalize_or(unit),
+            4 => (random.pick(&[1.0, -1.0]) * across + small(random) * unit).normalize(),
             _ => (towards + small(random) * across).normalize(),
         };
-        let cosines = if random.below(2) == 0 { [-1.0; 2] } else { cone(random, axis.dot(d).abs()) };
+        let has_cone = axis != Vec3::ZERO && random.below(2) == 0;
+        let cosines = if has_cone { cone(random, axis.dot(unit).abs()) } else { [-1.0; 2] };
+        let axis = stretched(random, axis);
 
         let thick = if random.below(4) == 0 { power(random, 40) } else { 0.2 } / metre;
         let [a, s] = [(); 2].map(|()| [(); 4].map(|()| if random.below(8) == 0 { 0.0 } else { thick * small(random) }));
@@ -56,6 +60,12 @@ pub fn columns(random: &mut Random, n: usize, per_ray: usize) -> Columns {
         }
     }
     columns
+}
+
+/// The vector, in half of all cases with a length that is not quite 1.
+fn stretched(random: &mut Random, unit: Vec3) -> Vec3 {
+    let excess = random.pick(&[1e-3, -1e-3, 0.0, 0.0]) * small(random);
+    (1.0 + excess) * unit
 }
 
 /// A power of two, from `2^-most` to `2^most`.
