@@ -31,7 +31,8 @@ pub fn columns(random: &mut Random, n: usize, per_ray: usize) -> Columns {
             t_min + length * random.pick(&[0.0, 1.0, 0.5, -0.5, 1.5, share, share, share])
         };
         let aside = if random.below(16) == 0 { 0.0 } else { metre * 5.0 * small(random) };
-        let position = origin + place(random) * d + aside * across;
+        let far = if random.below(8) == 0 { power(random, 40) } else { 1.0 };
+        let position = origin + far * place(random) * d + aside * across;
 
         let towards = (origin + place(random) * d - position).normalize_or(unit);
         let axis = match random.below(6) {
@@ -44,7 +45,7 @@ pub fn columns(random: &mut Random, n: usize, per_ray: usize) -> Columns {
             _ => (towards + small(random) * across).normalize(),
         };
         let has_cone = axis != Vec3::ZERO && random.below(2) == 0;
-        let cosines = if has_cone { cone(random, axis.dot(unit).abs()) } else { [-1.0; 2] };
+        let cosines = if has_cone { cone(random, [axis.dot(unit), axis.dot(towards)]) } else { [-1.0; 2] };
         let axis = stretched(random, axis);
 
         let thick = if random.below(4) == 0 { power(random, 40) } else { 0.2 } / metre;
@@ -64,7 +65,7 @@ pub fn columns(random: &mut Random, n: usize, per_ray: usize) -> Columns {
 
 /// The vector, in half of all cases with a length that is not quite 1.
 fn stretched(random: &mut Random, unit: Vec3) -> Vec3 {
-    let excess = random.pick(&[1e-3, -1e-3, 0.0, 0.0]) * small(random);
+    let excess = random.pick(&[1e-3, -1e-3, 1e-5, -1e-5, 0.0, 0.0, 0.0, 0.0]) * small(random);
     (1.0 + excess) * unit
 }
 
@@ -79,12 +80,13 @@ fn small(random: &mut Random) -> f32 {
     if random.below(2) == 0 { x } else { x * 2f32.powi(-(random.below(80) as i32)) }
 }
 
-/// The cosines of a cone, given that of the angle between its axis and the ray: of a ray along its side, of a narrow one, of a half
-/// space or of any; with an edge from hard to soft.
-fn cone(random: &mut Random, of_ray: f32) -> [f32; 2] {
+/// The cosines of a cone, given those of the angles between its axis and the ray, and a place of the ray: of a ray along its side, of
+/// one that meets it there, of a narrow one, of a half space or of any; with an edge from hard to soft.
+fn cone(random: &mut Random, of_ray: [f32; 2]) -> [f32; 2] {
+    let [along, there] = of_ray.map(|cosine| cosine.abs().min(1.0));
     let any = random.between(0.0, 1.0);
     let narrow = 1.0 - small(random);
-    let outer = random.pick(&[of_ray.min(1.0), narrow, narrow, 0.0, any, any]);
+    let outer = random.pick(&[along, there, there, narrow, narrow, 0.0, any]);
     let soft = outer + (1.0 - outer) * small(random);
     [outer, random.pick(&[outer, soft, soft, 1.0])]
 }
