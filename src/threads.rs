@@ -51,3 +51,23 @@ impl Threads {
         }
     }
 }
+
+#[cfg(all(test, feature = "rayon"))]
+mod tests {
+    use super::*;
+
+    /// Both parts together have as many threads as the whole, and values in proportion.
+    #[test]
+    fn all_threads_but_a_single_one_are_split() {
+        for threads in [Threads::Caller, Threads::at_most(0), Threads::at_most(1)] {
+            assert!(threads.split().is_none(), "{threads:?}");
+        }
+        for n in 2..100 {
+            let Split { share: [low, all], threads } = Threads::at_most(n).split().unwrap();
+            assert_eq!((low, all), (n / 2, n));
+            assert_eq!(threads, [low, n - low].map(Threads::at_most));
+        }
+        let Split { share: [_, all], .. } = Threads::Pool.split().unwrap();
+        assert_eq!(all, PARTS * rayon::current_num_threads());
+    }
+}

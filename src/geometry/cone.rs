@@ -116,9 +116,8 @@ impl<I: Isa> Line<I> {
     /// The square of the least `h` that is resolved at this distance, not rounded to f32: the edges of a cone depend on it.
     #[cfg_attr(optimized, inline(always))]
     fn least_h_squared(&self, isa: I) -> I::Double {
-        // Of an emitter behind the ray's origin, `start` is at least `-t_h`.
-        let start = self.t_prime[0];
-        let away = self.t_h.max(start.max(-start));
+        // max(|t_h|, |t_min - t_h|): as t_min is not negative, the larger one is positive.
+        let away = self.t_h.max(self.t_prime[0]);
         let least = (away * isa.splat_double(1e-9)).max(isa.splat_double(1e-18));
         least * least
     }
