@@ -91,6 +91,6 @@ fn bits_of_hard_rays_are_what_they_were() {
         let most = if index % 8 == 0 { 70 } else { 5 };
         in_form(hard::columns(&mut random, 64, 1), form, most, &mut random)
     };
-    let batches: Vec<_> = (0..24).map(batch).collect();
+    let batches: Vec<_> = (0..48).map(batch).collect();
     unchanged(&hashes(&batches), include_str!("golden/hard.txt"));
 }

@@ -29,7 +29,7 @@
 //!    are left. The pdf is that at the angle returned: a residual of the iteration is no bias.
 //! 4. `P` and `theta` are in f64 where a density is evaluated: the logarithms of the polynomials have slopes up to 30.
 
-use super::point_normal::{NEAREST, mass_of_cosine, tan_half_at_mass};
+use super::point_normal::{NEAREST, tan_half_at_mass};
 use crate::density::{Density, Drawn, Pdf, SetUp};
 use crate::expansion::{Expanded, ORDER};
 use crate::geometry::{Angle, Extent, Geometry, Point, RayLanes};
@@ -152,11 +152,9 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
         let three = [f_a.max(c(0.0)), product[0], f_b.max(c(0.0))];
         let quintic = quintic(isa, product[0], values, integrals);
 
-        // The second piece (3.6).
+        // The second piece (3.6), less than a right angle: it starts beyond the foot of the perpendicular, as `theta_c > 0`.
         let rest = subtended - width;
-        let right_angle = c(core::f32::consts::FRAC_PI_2);
-        let tan_half = tan(isa, rest.min(right_angle) * c(0.5));
-        let cosines = mass_of_cosine::<I>([n_c, n_b], [s_c, -s_b], tan_half, right_angle.lt(rest));
+        let cosines = (n_c + n_b) * tan(isa, rest.min(c(core::f32::consts::FRAC_PI_2)) * c(0.5));
         let mass_2 = p_c * I::V::select(g.cosine.has_normal, cosines, rest);
 
         let lit = g.lit(isa) & g.bright(isa, &ends);
@@ -274,12 +272,8 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
 
         let [across, along] = g.seen_from(isa, self.mirrored, point);
         let rest = angle_of(isa, across, along);
-        let s = g.antiderivative(point.t_prime, point.r);
-        let s = I::V::select(self.mirrored, -s, s);
-        let right_angle = c(core::f32::consts::FRAC_PI_2);
-        let tan_half = tan(isa, rest.min(right_angle) * c(0.5));
-        let n = g.cosine(isa, point);
-        let cosines = mass_of_cosine::<I>([n, self.n_b], [s, -self.s_b], tan_half, right_angle.lt(rest));
+        let tan_half = tan(isa, rest.min(c(core::f32::consts::FRAC_PI_2)) * c(0.5));
+        let cosines = (g.cosine(isa, point) + self.n_b) * tan_half;
         let above = self.p_c * I::V::select(g.cosine.has_normal, cosines, rest);
 
         let (total, mass) = (self.mass_1 + self.mass_2, I::V::select(first, below, above));

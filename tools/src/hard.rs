@@ -31,8 +31,8 @@ pub fn columns(random: &mut Random, n: usize, per_ray: usize) -> Columns {
             t_min + length * random.pick(&[0.0, 1.0, 0.5, -0.5, 1.5, share, share, share])
         };
         let aside = if random.below(16) == 0 { 0.0 } else { metre * 5.0 * small(random) };
-        let far = if random.below(8) == 0 { power(random, 40) } else { 1.0 };
-        let position = origin + far * place(random) * d + aside * across;
+        let far = if random.below(8) == 0 { power(random, 56) } else { 1.0 };
+        let position = origin + far * (place(random) * d + aside * across);
 
         let towards = (origin + place(random) * d - position).normalize_or(unit);
         let axis = match random.below(6) {
@@ -48,7 +48,7 @@ pub fn columns(random: &mut Random, n: usize, per_ray: usize) -> Columns {
         let cosines = if has_cone { cone(random, [axis.dot(unit), axis.dot(towards)]) } else { [-1.0; 2] };
         let axis = stretched(random, axis);
 
-        let thick = if random.below(4) == 0 { power(random, 40) } else { 0.2 } / metre;
+        let thick = [power(random, 40), 5.0, 0.5, 0.1][random.below(4) as usize] / metre;
         let [a, s] = [(); 2].map(|()| [(); 4].map(|()| if random.below(8) == 0 { 0.0 } else { thick * small(random) }));
         let g = random.pick(&[1.0, -1.0]) * (1.0 - small(random));
         push(&mut columns.rays, [origin.x, origin.y, origin.z, d.x, d.y, d.z, t_min, t_max]);
