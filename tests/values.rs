@@ -1,6 +1,6 @@
 //! Rays, emitters, media, samplers and integrals give back what they were made of.
 
-use airlight::{Backend, Emitter, Integral, Medium, Nodes, Precision, Ray, Sampler, Strategy, Threads};
+use airlight::{Backend, Emitter, Integral, Medium, Nodes, Precision, Ray, Rays, Sampler, Strategy, Threads};
 
 const POSITION: [f32; 3] = [1.0, -2.0, 3.0];
 const UNIT: [f32; 3] = [0.0, -0.6, 0.8];
@@ -9,6 +9,11 @@ const UNIT: [f32; 3] = [0.0, -0.6, 0.8];
 fn rays() {
     let ray = Ray::new(POSITION, UNIT, 0.5, 7.0).unwrap();
     assert_eq!((ray.origin(), ray.direction(), ray.t_min(), ray.t_max()), (POSITION, UNIT, 0.5, 7.0));
+    for n in 0..3 {
+        let column = &[0.0; 2][..n];
+        let rays = Rays::new([column; 3], [column; 3], column, column);
+        assert_eq!((rays.len(), rays.is_empty()), (column.len(), column.is_empty()));
+    }
 }
 
 #[test]
