@@ -88,7 +88,7 @@ fn bits_of_hard_rays_are_what_they_were() {
     let batch = |index: usize| {
         let mut random = Random::new(1000 + index as u64);
         let form = [10, 11, 10, 11, 26, 42][index % 6];
-        let most = if index % 8 == 0 { 70 } else { 5 };
+        let most = if index.is_multiple_of(8) { 70 } else { 5 };
         in_form(hard::columns(&mut random, 64, 1), form, most, &mut random)
     };
     let batches: Vec<_> = (0..48).map(batch).collect();
