@@ -67,7 +67,8 @@ mod tests {
             assert_eq!((low, all), (n / 2, n));
             assert_eq!(threads, [low, n - low].map(Threads::at_most));
         }
-        let Split { share: [_, all], .. } = Threads::Pool.split().unwrap();
-        assert_eq!(all, PARTS * rayon::current_num_threads());
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(3).build().unwrap();
+        let Split { share: [_, all], .. } = pool.install(|| Threads::Pool.split()).unwrap();
+        assert_eq!(all, 3 * PARTS);
     }
 }
