@@ -16,6 +16,7 @@ esac
 build=(--release --sanitizer "$sanitizer" --no-trace-compares)
 if [ "$sanitizer" != none ]; then build+=(--debug-assertions); fi
 mkdir -p "fuzz/corpus/$target"
-# Edges are what tells inputs apart; how often each is passed is a matter of the number of rays.
+# Edges are what tells inputs apart; how often each is passed is a matter of the number of rays. To weigh inputs by how rare their
+# edges are takes as long as a call.
 cargo +nightly fuzz run "${build[@]}" "$target" "fuzz/corpus/$target" "${seeds[@]}" -- \
-    -max_total_time="$seconds" -max_len="$longest" -len_control=0 -use_counters=0 -reduce_inputs=0 -print_final_stats=1
+    -max_total_time="$seconds" -max_len="$longest" -len_control=0 -use_counters=0 -entropic=0 -reduce_inputs=0 -print_final_stats=1
