@@ -1,5 +1,5 @@
 //! Makes the seeds of the fuzz targets anew: `seeds/FAMILY-NUMBER`, two rays of a family of `airlight accuracy` as an input of
-//! the targets on batches.
+//! the targets on batches; `files/`, columns of each dtype and archives of them, for the reader of wavefronts.
 //!
 //! ```sh
 //! cargo run --example seeds
@@ -7,16 +7,18 @@
 
 use airlight::{FARTHEST, Rays};
 use airlight_fuzz::families::{Case, Columns, Family};
-use airlight_fuzz::{HEAD, Patch};
+use airlight_fuzz::{HEAD, Patch, files};
 use std::error::Error;
 use std::path::Path;
+use zip::CompressionMethod;
 
 /// Of each family.
 const SEEDS: u64 = 6;
 const RAYS: usize = 2;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("seeds");
+    let home = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let folder = home.join("seeds");
     std::fs::create_dir_all(&folder)?;
     for family in Family::ALL {
         for number in 0..SEEDS {
@@ -24,6 +26,15 @@ fn main() -> Result<(), Box<dyn Error>> {
             std::fs::write(folder.join(format!("{}-{number}", family.name())), seed(&cases, number as u8))?;
         }
     }
+    let folder = home.join("files");
+    std::fs::create_dir_all(&folder)?;
+    // 0.25 and 1.
+    let single = files::npy("<f4", [0.25f32, 1.0].map(f32::to_le_bytes).as_flattened());
+    std::fs::write(folder.join("f4.npy"), &single)?;
+    std::fs::write(folder.join("f8.npy"), files::npy(">f8", [0.25f64, 1.0].map(f64::to_be_bytes).as_flattened()))?;
+    std::fs::write(folder.join("f2.npy"), files::npy("f2", [0x3400u16, 0x3c00].map(u16::to_le_bytes).as_flattened()))?;
+    std::fs::write(folder.join("stored.npz"), files::npz(&single, CompressionMethod::Stored)?)?;
+    std::fs::write(folder.join("deflated.npz"), files::npz(&single, CompressionMethod::Deflated)?)?;
     Ok(())
 }
 

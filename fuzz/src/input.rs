@@ -20,7 +20,7 @@ pub(crate) struct Input {
 pub const HEAD: usize = 16;
 /// Numbers of variates for each ray.
 const PER_RAY: [usize; 8] = [1, 1, 1, 1, 2, 3, 7, 33];
-/// Rays times variates, at most.
+/// Rays times variates, and rays times emitters to choose from, at most.
 const MOST: usize = 99;
 
 /// A value of any bits: the column and the ray that it goes to. Columns are those of rays, lights and fog in the order of
@@ -28,14 +28,20 @@ const MOST: usize = 99;
 pub type Patch = [u8; 6];
 
 impl Input {
-    /// What `data` describes; none without a head.
-    pub(crate) fn new(data: &[u8]) -> Option<Self> {
-        let (&head, rest) = data.split_first_chunk::<HEAD>()?;
+    /// What `data` describes; bytes of the head that it lacks are 0.
+    pub(crate) fn new(data: &[u8]) -> Self {
+        let (given, rest) = data.split_at(HEAD.min(data.len()));
+        let mut head = [0; HEAD];
+        head[..given.len()].copy_from_slice(given);
         let [rays, per_ray, form, strategy, precision, nodes, again, cut, seed @ ..] = head.map(usize::from);
         let mut random = Random::new(seed.iter().fold(0, |seed, byte| seed << 8 | *byte as u64));
 
-        // Few rays, or now and then more than any group of lanes has.
-        let n = if rays < 224 { rays % 9 } else { rays - 224 + 9 };
+        // Few rays, now and then more than any group of lanes has, once none.
+        let n = match rays {
+            0..224 => 1 + (rays + 7) % 8,
+            224..255 => rays - 224 + 9,
+            _ => 0,
+        };
         let per_ray = PER_RAY[per_ray % 8];
         let per_ray = if n * per_ray > MOST { 1 } else { per_ray };
         let mut columns = room::columns(&mut random, n, per_ray);
@@ -46,22 +52,26 @@ impl Input {
         let precision = Precision::ALL[precision % Precision::ALL.len()];
         let table = columns.emitters();
         let weights = random.clone();
-        Some(Self {
+        Self {
             sampler: sampler.with_precision(precision).unwrap_or(sampler),
             integral: Integral::new(Nodes::ALL[nodes % Nodes::ALL.len()]).with_precision(precision),
             again: self::again(again, cut.checked_rem(n).unwrap_or(0)),
             weights,
             table,
             batch: columns.batch(form % FORMS, |n| random.below(n)),
-        })
+        }
     }
 
-    /// The emitters of the batch and weights, none of every fourth.
-    pub(crate) fn choices(&mut self) -> Choices {
-        let random = &mut self.weights;
-        let mut weight = || if random.below(4) == 0 { 0.0 } else { random.between(0.0, 9.0) };
-        let weights = self.table.iter().map(|_| weight()).collect();
-        Choices { table: std::mem::take(&mut self.table), weights }
+    /// The emitters of the batch, in one of eight calls again and again, and weights, none of every fourth. As each ray asks
+    /// every emitter, many rays have few.
+    pub(crate) fn choices(&self) -> Choices {
+        let mut random = self.weights.clone();
+        let most = MOST / self.batch.len().max(1);
+        let many = (random.below(8) == 0).then(|| 1 + random.below(most as u64) as usize);
+        let count = many.unwrap_or(self.table.len().min(most));
+        let table: Vec<Emitter> = self.table.iter().copied().cycle().take(count).collect();
+        let weights = table.iter().map(|_| if random.below(4) == 0 { 0.0 } else { random.between(0.0, 9.0) }).collect();
+        Choices { table, weights }
     }
 }
 

@@ -17,6 +17,7 @@ mod draw;
 #[allow(dead_code, missing_docs, reason = "of the tools")]
 #[path = "../../tools/src/families.rs"]
 pub mod families;
+pub mod files;
 mod input;
 #[allow(dead_code, reason = "of the command")]
 #[path = "../../tools/src/npy.rs"]
@@ -42,6 +43,7 @@ use input::Input;
 use promises::Kept;
 use structs::{Dice, Structs};
 use wavefront::Wavefront;
+use zip::CompressionMethod;
 
 /// A target.
 pub type Target = fn(&[u8]);
@@ -55,7 +57,8 @@ pub const TARGETS: [(&str, Target); 6] =
 /// # Panics
 /// If a promise is broken.
 pub fn sample(data: &[u8]) {
-    Input::new(data).map(|input| held(input.batch.hold_sample(&input.sampler, input.again)));
+    let input = Input::new(data);
+    held(input.batch.hold_sample(&input.sampler, input.again));
 }
 
 /// `Sampler::pdf`, `cdf` and `evaluate`.
@@ -63,7 +66,8 @@ pub fn sample(data: &[u8]) {
 /// # Panics
 /// If a promise is broken.
 pub fn densities(data: &[u8]) {
-    Input::new(data).map(|input| held(input.batch.hold_densities(&input.sampler, input.again)));
+    let input = Input::new(data);
+    held(input.batch.hold_densities(&input.sampler, input.again));
 }
 
 /// `Integral::radiance`.
@@ -71,7 +75,8 @@ pub fn densities(data: &[u8]) {
 /// # Panics
 /// If a promise is broken.
 pub fn radiance(data: &[u8]) {
-    Input::new(data).map(|input| held(input.batch.hold_radiance(&input.integral, input.again)));
+    let input = Input::new(data);
+    held(input.batch.hold_radiance(&input.integral, input.again));
 }
 
 /// `Integral::choose`.
@@ -79,10 +84,8 @@ pub fn radiance(data: &[u8]) {
 /// # Panics
 /// If a promise is broken.
 pub fn choose(data: &[u8]) {
-    Input::new(data).map(|mut input| {
-        let choices = input.choices();
-        held(input.batch.hold_choose(&input.integral, &choices, input.again))
-    });
+    let input = Input::new(data);
+    held(input.batch.hold_choose(&input.integral, &input.choices(), input.again));
 }
 
 /// A call of the C ABI with the structs that `data` says.
@@ -118,20 +121,30 @@ impl Dice for Bytes<'_> {
     }
 }
 
-/// The reader of `airlight sample`: of `data` as an archive, and as a column.
+/// The reader of `airlight sample`: of `data` as an archive, as a column, and as every column of an archive.
+///
+/// # Panics
+/// If the reader panics, does not read what was written, or reads an archive otherwise than its columns.
 pub fn npz(data: &[u8]) {
-    let column = npy::decode(data);
-    if let Ok(column) = column {
+    read(data);
+    if let Ok(column) = npy::decode(data) {
         // What is written is read again.
         let again = npy::decode(&npy::encode(&column.values)).expect("a column that was encoded");
         let bits = |values: &[f32]| values.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
         assert_eq!(bits(&again.values), bits(&column.values));
+        let archive = files::npz(data, CompressionMethod::Stored).expect("an archive in memory");
+        assert_eq!(read(&archive), column.values.len());
     }
-    if let Ok(wavefront) = Wavefront::decode("fuzz".to_owned(), data) {
+}
+
+/// How many rays the archive has; none if it is refused.
+fn read(archive: &[u8]) -> usize {
+    Wavefront::decode("fuzz".to_owned(), archive).map_or(0, |wavefront| {
         for i in 0..wavefront.len() {
             let _ = (wavefront.ray(i), wavefront.variate(i));
         }
-    }
+        wavefront.len()
+    })
 }
 
 fn held(kept: Kept) -> usize {
@@ -175,6 +188,18 @@ mod tests {
                 (data[3], data[4], data[5], data[6]) = (strategy / 2, strategy % 2, strategy, again);
                 TARGETS[..4].iter().for_each(|(_, target)| target(&data));
             }
+        }
+    }
+
+    #[test]
+    fn the_files_are_read() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("files");
+        for file in folder.read_dir().unwrap().map(|file| file.unwrap().path()) {
+            let data = std::fs::read(&file).unwrap();
+            let archive =
+                if data.starts_with(b"PK") { data } else { files::npz(&data, CompressionMethod::Deflated).unwrap() };
+            assert_eq!(read(&archive), 2, "{}", file.display());
+            npz(&archive);
         }
     }
 

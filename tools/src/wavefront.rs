@@ -29,6 +29,8 @@ pub(crate) struct Wavefront {
     cones: Option<[Vec<f32>; 2]>,
     /// The variates of the first repetition.
     pub(crate) u: Vec<f32>,
+    /// Which columns were converted from which dtype, if any.
+    conversions: Option<String>,
 }
 
 impl Wavefront {
@@ -36,7 +38,11 @@ impl Wavefront {
     pub(crate) fn read(path: &Path) -> Result<Self> {
         let name = path.display().to_string();
         let file = std::fs::read(path).with_context(|| format!("cannot read {name}"))?;
-        Self::decode(name.clone(), &file).context(name)
+        let wavefront = Self::decode(name.clone(), &file).context(name)?;
+        if let Some(conversions) = &wavefront.conversions {
+            eprintln!("{}: converted to float32: {conversions}", wavefront.name);
+        }
+        Ok(wavefront)
     }
 
     /// The Cornell box in fog.
@@ -58,11 +64,9 @@ impl Wavefront {
             normal: archive.columns(["nx", "ny", "nz"])?,
             cones: archive.cones()?,
             u: archive.column("u")?,
+            conversions: archive.conversions(),
         };
         ensure!(wavefront.len() > 0, "the wavefront is empty: its columns have no values");
-        if let Some(conversions) = archive.conversions() {
-            eprintln!("{}: converted to float32: {conversions}", wavefront.name);
-        }
         Ok(wavefront)
     }
 
