@@ -49,7 +49,7 @@ pub(crate) trait Density<I: Isa>: Copy {
     /// The sampled interval `[low, high]` of distances \[m\].
     #[cfg_attr(optimized, inline(always))]
     fn support(&self, geometry: Geometry<'_, I>) -> [I::V; 2] {
-        [geometry.lit.a.t, geometry.lit.b.t]
+        [geometry.lit.a, geometry.lit.b]
     }
 }
 
@@ -73,7 +73,7 @@ impl<I: Isa, D: Density<I>> SetUp<I, D> {
         channels: Option<&ChannelLanes<I>>,
     ) -> Self {
         let (density, lit) = D::new(isa, ray, geometry, medium, channels);
-        Self { density, valid: geometry.lit.valid & medium.valid, lit }
+        Self { density, valid: geometry.valid & medium.valid, lit }
     }
 }
 

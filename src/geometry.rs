@@ -34,7 +34,7 @@ mod points;
 mod single;
 
 pub(crate) use cone::{Cone, Ramp, SpotLanes, locate as in_cone};
-pub(crate) use single::{clip, find_foot};
+pub(crate) use single::{Clipped, FoundFoot, clip, find_foot};
 
 use crate::scene::{FARTHEST, UNIT_TOLERANCE};
 use crate::simd::math::{angle_of, reciprocal};
@@ -101,6 +101,9 @@ const TOLERANCE: f32 = 2.001 * UNIT_TOLERANCE;
 /// The largest coordinate \[m\] with products that stay within f32.
 const PLAIN: f32 = 1e15;
 
+/// The length of a lit interval that counts as none \[m\].
+const LEAST_LENGTH: f32 = 1e-18;
+
 /// The share of the variates, beyond those of half of the angle, of which a point is still measured from the end that is nearer to
 /// the foot of the perpendicular. From the other end the way is long, and the short rest to the near end would have its error.
 pub(crate) const BIAS: f32 = 0.05;
@@ -108,14 +111,30 @@ pub(crate) const BIAS: f32 = 0.05;
 /// The part of the ray that the emitter faces.
 #[derive(Clone, Copy)]
 pub(crate) struct Lit<I: Isa> {
-    /// Its start.
-    pub(crate) a: End<I>,
-    /// Its end.
-    pub(crate) b: End<I>,
+    /// The distances of its ends along the ray \[m\], rounded: `t_a` and `t_b`.
+    pub(crate) a: I::V,
+    pub(crate) b: I::V,
     /// `t_b - t_a` \[m\]; 0 where nothing is lit.
     pub(crate) length: I::V,
-    /// Which lanes hold a valid ray and emitter; of `single` which of them need no f64.
-    pub(crate) valid: I::Mask,
+}
+
+/// The remainders of roundings: the exact value is the rounded one plus this. They are 0 where f32 is exact enough for the
+/// precision.
+#[derive(Clone, Copy)]
+pub(crate) struct Rests<I: Isa> {
+    /// Of `t_a` and `t_b` \[m\]: 0 where the ray itself ends.
+    pub(crate) a: I::V,
+    pub(crate) b: I::V,
+    /// Of `h^2` \[m^2\].
+    pub(crate) h_squared: I::V,
+}
+
+impl<I: Isa> Rests<I> {
+    #[cfg_attr(optimized, inline(always))]
+    pub(crate) fn none(isa: I) -> Self {
+        let zero = isa.splat(0.0);
+        Self { a: zero, b: zero, h_squared: zero }
+    }
 }
 
 /// The emitter's cosine `N` along the ray, as `m = n.(x - y) = N r` \[m\] (2.4).
@@ -151,30 +170,18 @@ impl<I: Isa> Cosine<I> {
     }
 }
 
-/// One end of the lit interval.
-#[derive(Clone, Copy)]
-pub(crate) struct End<I: Isa> {
-    /// Distance along the ray \[m\], rounded.
-    pub(crate) t: I::V,
-    /// The remainder of its rounding: 0 where the ray itself ends.
-    t_low: I::V,
-}
-
 /// The foot of the perpendicular from the emitter to the ray's line, and the ends of the lit interval as seen from there.
 #[derive(Clone, Copy)]
 pub(crate) struct Foot<I: Isa> {
-    /// Distance from the emitter \[m\], its square, and the remainder of the square's rounding.
+    /// Distance from the emitter \[m\], and its square.
     pub(crate) h: I::V,
     pub(crate) h_squared: I::V,
-    h_squared_low: I::V,
     /// Distance along the ray \[m\], approximate, and the difference to the exact one.
     t_h: I::V,
     t_h_low: I::V,
     /// `t' = t - t_h` at the ends of the lit interval \[m\].
     pub(crate) a: I::V,
     pub(crate) b: I::V,
-    /// `alpha h`, which is `m` at the foot \[m\] (2.4).
-    pub(crate) alpha_h: I::V,
 }
 
 /// The geometry of a lane group.
@@ -183,6 +190,11 @@ pub(crate) struct Geometry<'g, I: Isa> {
     pub(crate) lit: &'g Lit<I>,
     pub(crate) cosine: &'g Cosine<I>,
     pub(crate) foot: &'g Foot<I>,
+    /// `alpha h`, which is `m` at the foot \[m\] (2.4).
+    pub(crate) alpha_h: I::V,
+    pub(crate) rests: &'g Rests<I>,
+    /// Which lanes hold a valid ray and emitter; of `single` which of them need no f64.
+    pub(crate) valid: I::Mask,
     /// The cones of a group with spots; its other lanes have `is_spot` false.
     pub(crate) cone: Option<&'g Cone<I>>,
 }
@@ -217,11 +229,19 @@ pub(crate) struct Point<I: Isa> {
     /// Distance to the emitter \[m\].
     pub(crate) r: I::V,
     /// `n.(x - y) = N r` \[m\], of a spot `S r`; not negative. It means nothing for other emitters.
-    m: I::V,
+    pub(crate) m: I::V,
 }
 
 /// The geometry of a lane group, owned.
-pub(crate) type Located<I> = (Lit<I>, Cosine<I>, Foot<I>);
+#[derive(Clone, Copy)]
+pub(crate) struct Located<I: Isa> {
+    pub(crate) lit: Lit<I>,
+    pub(crate) rests: Rests<I>,
+    pub(crate) cosine: Cosine<I>,
+    pub(crate) foot: Foot<I>,
+    pub(crate) alpha_h: I::V,
+    pub(crate) valid: I::Mask,
+}
 
 /// The geometry of a lane group in f64.
 #[cfg_attr(optimized, inline(always))]
@@ -229,44 +249,48 @@ pub(crate) fn in_f64<I: Isa>(isa: I, ray: &RayLanes<I>, emitter: &EmitterLanes<I
     double::locate(isa, ray, emitter)
 }
 
-/// `yes` in `hard` lanes, `no` in the others.
-#[cfg_attr(optimized, inline(always))]
-pub(crate) fn pick<I: Isa>(hard: I::Mask, yes: &Located<I>, no: Geometry<'_, I>) -> Located<I> {
-    let (lit, cosine, foot) = yes;
-    let end = |yes: &End<I>, no: &End<I>| End {
-        t: I::V::select(hard, yes.t, no.t),
-        t_low: I::V::select(hard, yes.t_low, no.t_low),
-    };
-    (
-        Lit {
-            a: end(&lit.a, &no.lit.a),
-            b: end(&lit.b, &no.lit.b),
-            length: I::V::select(hard, lit.length, no.lit.length),
-            valid: (hard & lit.valid) | (!hard & no.lit.valid),
-        },
-        Cosine {
-            m_least: I::V::select(hard, cosine.m_least, no.cosine.m_least),
-            beta: I::V::select(hard, cosine.beta, no.cosine.beta),
-            has_normal: (hard & cosine.has_normal) | (!hard & no.cosine.has_normal),
-        },
-        Foot {
-            h: I::V::select(hard, foot.h, no.foot.h),
-            h_squared: I::V::select(hard, foot.h_squared, no.foot.h_squared),
-            h_squared_low: I::V::select(hard, foot.h_squared_low, no.foot.h_squared_low),
-            t_h: I::V::select(hard, foot.t_h, no.foot.t_h),
-            t_h_low: I::V::select(hard, foot.t_h_low, no.foot.t_h_low),
-            a: I::V::select(hard, foot.a, no.foot.a),
-            b: I::V::select(hard, foot.b, no.foot.b),
-            alpha_h: I::V::select(hard, foot.alpha_h, no.foot.alpha_h),
-        },
-    )
+impl<I: Isa> Located<I> {
+    /// This in the lanes of `hard`, `other` in the others.
+    #[cfg_attr(optimized, inline(always))]
+    pub(crate) fn or(&self, hard: I::Mask, other: Geometry<'_, I>) -> Self {
+        let Self { lit, rests, cosine, foot, alpha_h, valid } = self;
+        let pick = |yes, no| I::V::select(hard, yes, no);
+        let pick_mask = |yes, no| (hard & yes) | (!hard & no);
+        Self {
+            lit: Lit {
+                a: pick(lit.a, other.lit.a),
+                b: pick(lit.b, other.lit.b),
+                length: pick(lit.length, other.lit.length),
+            },
+            rests: Rests {
+                a: pick(rests.a, other.rests.a),
+                b: pick(rests.b, other.rests.b),
+                h_squared: pick(rests.h_squared, other.rests.h_squared),
+            },
+            cosine: Cosine {
+                m_least: pick(cosine.m_least, other.cosine.m_least),
+                beta: pick(cosine.beta, other.cosine.beta),
+                has_normal: pick_mask(cosine.has_normal, other.cosine.has_normal),
+            },
+            foot: Foot {
+                h: pick(foot.h, other.foot.h),
+                h_squared: pick(foot.h_squared, other.foot.h_squared),
+                t_h: pick(foot.t_h, other.foot.t_h),
+                t_h_low: pick(foot.t_h_low, other.foot.t_h_low),
+                a: pick(foot.a, other.foot.a),
+                b: pick(foot.b, other.foot.b),
+            },
+            alpha_h: pick(*alpha_h, other.alpha_h),
+            valid: pick_mask(*valid, other.valid),
+        }
+    }
 }
 
 impl<I: Isa> Geometry<'_, I> {
     /// Which lanes have a lit interval.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn faced(&self, isa: I) -> I::Mask {
-        isa.splat(1e-18).lt(self.lit.length)
+        isa.splat(LEAST_LENGTH).lt(self.lit.length)
     }
 
     /// Which lanes have a lit interval that f32 can tell from none: it subtends more than 1e-30 rad, and is longer than 1e-36 of
@@ -280,21 +304,39 @@ impl<I: Isa> Geometry<'_, I> {
         self.faced(isa) & wide
     }
 
-    /// The same, given `Theta`.
+    /// The same, [`faced`](Self::faced) included, given `Theta`.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn lit_by_angle(&self, isa: I, subtended: I::V) -> I::Mask {
         // r_a r_b, where the interval is short against r.
         let rr = self.dot_of_ends().abs();
-        self.faced(isa) & isa.splat(1e-30).lt(subtended) & (rr * isa.splat(1e-36)).lt(self.lit.length)
+        isa.splat(1e-30).lt(subtended) & isa.splat(LEAST_LENGTH).max(rr * isa.splat(1e-36)).lt(self.lit.length)
     }
 
     /// The ends as seen from the emitter (2.3), (2.4).
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn ends(&self, isa: I) -> Ends<I> {
-        let r = [self.foot.r(self.foot.a), self.foot.r(self.foot.b)];
-        let cosine = |m: I::V, r: I::V| I::V::select(self.cosine.has_normal, m / r, isa.splat(1.0));
+        let (ends, _) = self.ends_and_antiderivatives(isa, true);
+        ends
+    }
+
+    /// The same, with the antiderivative `alpha sin theta - beta cos theta` of `N` over `theta` there: `M` of section 3.3. If not
+    /// `exact`, quotients by `r` are products with one reciprocal.
+    #[cfg_attr(optimized, inline(always))]
+    pub(crate) fn ends_and_antiderivatives(&self, isa: I, exact: bool) -> (Ends<I>, [I::V; 2]) {
+        let one = isa.splat(1.0);
+        let Foot { a, b, .. } = *self.foot;
+        let [r_a, r_b] = [self.foot.r(a), self.foot.r(b)];
         let [m_a, m_b] = self.m_at_ends(isa);
-        Ends { r, n: [cosine(m_a, r[0]), cosine(m_b, r[1])] }
+        let [s_a, s_b] = [self.antiderivative_r(a), self.antiderivative_r(b)];
+        let (n, s) = if exact {
+            ([m_a / r_a, m_b / r_b], [s_a / r_a, s_b / r_b])
+        } else {
+            let both = one / (r_a * r_b);
+            let (inv_r_a, inv_r_b) = (r_b * both, r_a * both);
+            ([m_a * inv_r_a, m_b * inv_r_b], [s_a * inv_r_a, s_b * inv_r_b])
+        };
+        let has_normal = self.cosine.has_normal;
+        (Ends { r: [r_a, r_b], n: [I::V::select(has_normal, n[0], one), I::V::select(has_normal, n[1], one)] }, s)
     }
 
     /// Which lanes have more than 1e-25 of the light of an emitter faced squarely: f32 cannot resolve `N` below that.
@@ -316,7 +358,7 @@ impl<I: Isa> Geometry<'_, I> {
     /// `h (|alpha| + |beta|)` \[m\]: at least `h` times the largest cosine, and at most 1.5 times that.
     #[cfg_attr(optimized, inline(always))]
     fn greatest_cosine_h(&self) -> I::V {
-        self.cosine.beta.abs().mul_add(self.foot.h, self.foot.alpha_h.abs())
+        self.cosine.beta.abs().mul_add(self.foot.h, self.alpha_h.abs())
     }
 
     /// Which ends are dark: their cosine is less than `share` of `|alpha| + |beta|`, or of `N_a + N_b` where the interval subtends
@@ -349,8 +391,8 @@ impl<I: Isa> Geometry<'_, I> {
 
     /// (2.7): the angle `Theta` that the lit interval subtends at the emitter, in `(0, pi]` \[rad\].
     #[cfg_attr(optimized, inline(always))]
-    pub(crate) fn subtended(&self, isa: I) -> I::V {
-        angle_of(isa, self.foot.h * self.lit.length, self.dot_of_ends())
+    pub(crate) fn subtended(&self, isa: I, exact: bool) -> I::V {
+        angle_of(isa, self.foot.h * self.lit.length, self.dot_of_ends(), exact)
     }
 
     /// [`BIAS`] where `a` is the end nearer to the foot of the perpendicular, else `-BIAS`.
@@ -366,17 +408,17 @@ impl<I: Isa> Geometry<'_, I> {
         self.foot.a.mul_add(self.foot.b, self.foot.h_squared)
     }
 
-    /// The antiderivative `alpha sin theta - beta cos theta` of `N` over `theta` at the ends: `M` of section 3.3.
-    #[cfg_attr(optimized, inline(always))]
-    pub(crate) fn antiderivatives(&self, ends: &Ends<I>) -> [I::V; 2] {
-        [self.antiderivative(self.foot.a, ends.r[0]), self.antiderivative(self.foot.b, ends.r[1])]
-    }
-
-    /// The same at a point.
+    /// The antiderivative of `N` over `theta` at a point.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn antiderivative(&self, t_prime: I::V, r: I::V) -> I::V {
-        let (alpha, beta_h) = (self.foot.alpha_h / self.foot.h, self.cosine.beta * self.foot.h);
-        alpha.mul_add(t_prime, -beta_h) / r
+        self.antiderivative_r(t_prime) / r
+    }
+
+    /// The same times `r` \[m\].
+    #[cfg_attr(optimized, inline(always))]
+    fn antiderivative_r(&self, t_prime: I::V) -> I::V {
+        let (alpha, beta_h) = (self.alpha_h / self.foot.h, self.cosine.beta * self.foot.h);
+        alpha.mul_add(t_prime, -beta_h)
     }
 
     /// The arguments of `atan2` in (2.6) for the angle between an end and a point of the lit interval \[m^2\]: `h` times the way
@@ -387,6 +429,39 @@ impl<I: Isa> Geometry<'_, I> {
         let end = I::V::select(from_a, self.foot.a, self.foot.b);
         [self.foot.h * way, end.mul_add(point.t_prime, self.foot.h_squared)]
     }
+
+    /// `h^2` \[m^2\].
+    #[cfg_attr(optimized, inline(always))]
+    fn exact_h_squared(&self) -> I::Double {
+        self.foot.h_squared.widen() + self.rests.h_squared.widen()
+    }
+
+    /// (1.13): the length of the path from `t_min` over the point to the emitter \[m\].
+    #[cfg_attr(optimized, inline(always))]
+    pub(crate) fn path(&self, isa: I, t_min: I::V, point: &Point<I>) -> I::Double {
+        (point.exact_t_prime() - (t_min.widen() - self.foot.exact_t_h())) + self.exact_r(isa, point)
+    }
+
+    /// (5.7): `X = t' + r`, and `r` \[m\], in f64.
+    #[cfg_attr(optimized, inline(always))]
+    pub(crate) fn exact_x_and_r(&self, isa: I, point: &Point<I>) -> (I::Double, I::Double) {
+        let (t_prime, r) = (point.exact_t_prime(), self.exact_r(isa, point));
+        let long = r + t_prime.max(-t_prime);
+        let short = self.exact_h_squared() * reciprocal(isa, long);
+        // r + t' where t' > 0, else h^2/(r - t'); f64 lanes have no select.
+        let sign = I::V::only(isa.splat(0.0).lt(point.t_prime), isa.splat(1.0)).widen();
+        (sign.mul_add(long - short, short), r)
+    }
+
+    /// `r` in f64, by a Newton step of the root.
+    #[cfg_attr(optimized, inline(always))]
+    fn exact_r(&self, isa: I, point: &Point<I>) -> I::Double {
+        let (t_prime, r) = (point.t_prime.widen(), point.r.widen());
+        let high = I::V::narrow((-r).mul_add(r, t_prime.mul_add(t_prime, self.foot.h_squared.widen())));
+        let low = (point.t_prime + point.t_prime).mul_add(point.t_prime_low, self.rests.h_squared);
+        let step = (high + low) * isa.splat(0.5) / point.r;
+        r + step.widen()
+    }
 }
 
 impl<I: Isa> Foot<I> {
@@ -394,8 +469,7 @@ impl<I: Isa> Foot<I> {
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn none(isa: I) -> Self {
         let zero = isa.splat(0.0);
-        let (t_h, t_h_low, h_squared_low) = (zero, zero, zero);
-        Self { h: zero, h_squared: zero, h_squared_low, t_h, t_h_low, a: zero, b: zero, alpha_h: zero }
+        Self { h: zero, h_squared: zero, t_h: zero, t_h_low: zero, a: zero, b: zero }
     }
 
     /// (2.3): the distance to the emitter \[m\].
@@ -425,43 +499,10 @@ impl<I: Isa> Foot<I> {
         self.t_h.widen() + self.t_h_low.widen()
     }
 
-    /// `h^2` \[m^2\].
-    #[cfg_attr(optimized, inline(always))]
-    fn exact_h_squared(&self) -> I::Double {
-        self.h_squared.widen() + self.h_squared_low.widen()
-    }
-
-    /// (1.13): the length of the path from `t_min` over the point to the emitter \[m\].
-    #[cfg_attr(optimized, inline(always))]
-    pub(crate) fn path(&self, isa: I, t_min: I::V, point: &Point<I>) -> I::Double {
-        (point.exact_t_prime() - (t_min.widen() - self.exact_t_h())) + self.exact_r(isa, point)
-    }
-
     /// (1.13) in f32. No term is larger than the path, so that the error is a few roundings of the path.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn rounded_path(&self, t_min: I::V, point: &Point<I>) -> I::V {
         (point.t_prime - ((t_min - self.t_h) - self.t_h_low)) + point.r
-    }
-
-    /// (5.7): `X = t' + r`, and `r` \[m\], in f64.
-    #[cfg_attr(optimized, inline(always))]
-    pub(crate) fn exact_x_and_r(&self, isa: I, point: &Point<I>) -> (I::Double, I::Double) {
-        let (t_prime, r) = (point.exact_t_prime(), self.exact_r(isa, point));
-        let long = r + t_prime.max(-t_prime);
-        let short = self.exact_h_squared() * reciprocal(isa, long);
-        // r + t' where t' > 0, else h^2/(r - t'); f64 lanes have no select.
-        let sign = I::V::only(isa.splat(0.0).lt(point.t_prime), isa.splat(1.0)).widen();
-        (sign.mul_add(long - short, short), r)
-    }
-
-    /// `r` in f64, by a Newton step of the root.
-    #[cfg_attr(optimized, inline(always))]
-    fn exact_r(&self, isa: I, point: &Point<I>) -> I::Double {
-        let (t_prime, r) = (point.t_prime.widen(), point.r.widen());
-        let high = I::V::narrow((-r).mul_add(r, t_prime.mul_add(t_prime, self.h_squared.widen())));
-        let low = (point.t_prime + point.t_prime).mul_add(point.t_prime_low, self.h_squared_low);
-        let step = (high + low) * isa.splat(0.5) / point.r;
-        r + step.widen()
     }
 }
 

@@ -98,7 +98,7 @@ pub(crate) fn transmittance<I: Isa, const EXACT: bool>(
     point: &Point<I>,
 ) -> I::V {
     if EXACT {
-        exp(isa, -(medium.mu_t.widen() * geometry.foot.path(isa, ray.t_min, point)))
+        exp(isa, -(medium.mu_t.widen() * geometry.path(isa, ray.t_min, point)))
     } else {
         let (_, transmittance) = one_minus_exp(isa, medium.mu_t * geometry.foot.rounded_path(ray.t_min, point));
         transmittance

@@ -35,8 +35,8 @@ use std::str::FromStr;
 /// # Arithmetic
 /// Both precisions compute the geometry of a ray in f64 where f32 is not enough for them: `Fast` where the ray's line passes the
 /// emitter at less than 2^-14 of its distance, and for unusual directions, normals and coordinates; `Exact` also where an end of
-/// the ray is next to the emitter's plane. Both compute spots in f64. Without fused multiply-add both do
-/// so for all rays, and are the same.
+/// the ray is next to the emitter's plane. Both compute spots in f64. `Fast` also has shorter polynomials and fewer divisions.
+/// Without fused multiply-add both compute all geometry in f64, and are the same.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Precision {
@@ -51,9 +51,9 @@ impl Precision {
     /// Both precisions.
     pub const ALL: &'static [Self] = &[Self::Exact, Self::Fast];
 
-    /// Whether the arithmetic is that of `Exact`, as it always is without fused multiply-add.
+    /// Whether the arithmetic is that of `Exact`.
     pub(crate) fn is_exact<I: Isa>(self) -> bool {
-        self == Self::Exact || !I::FUSED
+        is_exact::<I>(self == Self::Exact)
     }
 
     /// The name on the command line and in JSON.
@@ -64,6 +64,11 @@ impl Precision {
             Self::Fast => "fast",
         }
     }
+}
+
+/// Whether the arithmetic is that of [`Precision::Exact`], given whether the precision is: it always is without fused multiply-add.
+pub(crate) const fn is_exact<I: Isa>(exact: bool) -> bool {
+    exact || !I::FUSED
 }
 
 impl fmt::Display for Precision {

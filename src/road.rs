@@ -96,8 +96,14 @@ fn by_strategy<T: OfDensity>(machine: impl Machine, method: Method, inputs: &Inp
     }
     match strategy {
         Strategy::Transmittance => with::<T, transmittance::Kind>(machine, precision, inputs, out),
-        Strategy::EquiAngular => with::<T, equi_angular::Kind>(machine, precision, inputs, out),
-        Strategy::PointNormal => with::<T, point_normal::Kind>(machine, precision, inputs, out),
+        Strategy::EquiAngular => match precision {
+            Precision::Exact => with::<T, equi_angular::Kind<true>>(machine, precision, inputs, out),
+            Precision::Fast => with::<T, equi_angular::Kind<false>>(machine, precision, inputs, out),
+        },
+        Strategy::PointNormal => match precision {
+            Precision::Exact => with::<T, point_normal::Kind<true>>(machine, precision, inputs, out),
+            Precision::Fast => with::<T, point_normal::Kind<false>>(machine, precision, inputs, out),
+        },
         Strategy::TaylorTransmittance => {
             with::<T, taylor_transmittance::OfTransmittance>(machine, precision, inputs, out)
         }

@@ -2,7 +2,7 @@
 //! beyond all range comes out finite, in range and counted.
 
 use airlight::oracle::Scene;
-use airlight::{Emitter, Medium, Ray, Sampler, Strategy};
+use airlight::{Emitter, Medium, Precision, Ray, Sampler, Strategy};
 use airlight_tools::backends::distinct;
 use airlight_tools::bounds::bounds;
 use airlight_tools::errors::Errors;
@@ -187,6 +187,36 @@ fn an_emitter_that_faces_a_ray_next_to_it_lights_it() {
                 let (low, high) = (cdf(sample.t.next_down()), cdf(sample.t.next_up()));
                 let near = 1.0 / f64::from(1 << 20);
                 assert!((low - near..=high + near).contains(&f64::from(u)), "{name}: CDF {low} to {high}");
+            }
+        }
+    }
+}
+
+/// The same emitters by `Fast`, which may miss their light but not place it beyond the plane.
+#[test]
+fn emitters_seen_edge_on_are_sampled_on_their_side_of_the_plane() {
+    let medium = Medium::new(0.1, 0.2, 0.6).unwrap();
+    for exponent in 9..=44 {
+        let grade = 10f64.powi(-exponent) as f32;
+        for (side, normal) in [(1.0f32, Vec3::new(0.0, 0.0, 1.0)), (-1.0, Vec3::new(0.0, -1.0, grade))] {
+            // The plane is met at t = 2, by a slope of `grade` either way.
+            let (origin, direction, at) = if side > 0.0 {
+                (Vec3::new(0.0, 0.0, -2.0 * grade), Vec3::new(1.0, 0.0, grade), Vec3::new(5.0, 1.0, 0.0))
+            } else {
+                (Vec3::new(3.0, -1.0, 2.0), Vec3::NEG_Z, Vec3::new(-3.0, -1.0, 0.0))
+            };
+            let lamp = Emitter::point_normal(at, normal).unwrap();
+            let ray = Ray::new(origin, direction, 0.0, f32::INFINITY).unwrap();
+            for (backend, &strategy) in distinct().flat_map(|backend| Strategy::ALL.iter().map(move |s| (backend, s))) {
+                let Ok(sampler) = Sampler::new(strategy).with_precision(Precision::Fast) else { continue };
+                for u in [0.0, 0.05, 0.5, 0.95, 1.0] {
+                    let Some(sample) = sampler.with_backend(backend).sample_one(&ray, &lamp, &medium, u) else {
+                        continue;
+                    };
+                    let lit = if side > 0.0 { 1.999..=1e18 } else { 0.0..=2.001 };
+                    let name = format!("{strategy}, {}, grade {grade:e}, side {side}, u {u}", backend.name());
+                    assert!(lit.contains(&sample.t) && sample.pdf >= 0.0 && sample.weight >= 0.0, "{name}: {sample:?}");
+                }
             }
         }
     }

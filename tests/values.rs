@@ -1,6 +1,6 @@
 //! Rays, emitters, media, samplers and integrals give back what they were made of.
 
-use airlight::{Backend, Counts, Emitter, Integral, Medium, Nodes, Precision, Ray, Rays, Sampler, Strategy, Threads};
+use airlight::{Backend, Emitter, Integral, Medium, Nodes, Precision, Ray, Rays, Sampler, Strategy, Threads};
 
 const POSITION: [f32; 3] = [1.0, -2.0, 3.0];
 const UNIT: [f32; 3] = [0.0, -0.6, 0.8];
@@ -88,16 +88,6 @@ fn backends() {
     assert!(names.contains(&"portable"), "{names:?}");
     assert_eq!(Backend::detect().name(), names[0]);
     assert_eq!(Sampler::new(Strategy::EquiAngular).backend().name(), names[0]);
-}
-
-#[test]
-fn counts_add_up() {
-    let counts = |[sampled, empty, invalid, bisected]: [usize; 4]| {
-        let mut counts = Counts::default();
-        (counts.sampled, counts.empty, counts.invalid, counts.bisected) = (sampled, empty, invalid, bisected);
-        counts
-    };
-    assert_eq!(counts([5, 7, 11, 3]) + counts([13, 17, 19, 4]), counts([18, 24, 30, 7]));
 }
 
 /// None is the caller's thread alone.

@@ -24,7 +24,7 @@
 //! 4. Lengths are multiplied by 2^40 where `h` is below 1 m: squares of a tiny `h` stay within f32.
 
 use super::double::{Line, excess_of_square, one_over_length};
-use super::{Cosine, End, Lit, Located, RayLanes, TOLERANCE, dot, largest, widen};
+use super::{Cosine, Lit, Located, RayLanes, Rests, TOLERANCE, dot, largest, widen};
 use crate::scene::FARTHEST;
 use crate::simd::math::{reciprocal, reciprocal_near};
 use crate::simd::{Double, Isa, Lanes, Number, none};
@@ -199,22 +199,17 @@ pub(crate) fn locate<I: Isa>(isa: I, ray: &RayLanes<I>, spot: &SpotLanes<I>) -> 
     let length = I::V::select(between, between_edges, length).min(whole);
     // Both slopes are 0 if c and beta are: the ray then stays on its side of the plane.
     let ahead = opens[0] | opens[1] | zero.lt(I::V::narrow(alpha_h));
-    let lit = met & ahead & zero.lt(I::V::narrow(end - start));
-    let length = I::V::only(lit, length);
+    let is_lit = met & ahead & zero.lt(I::V::narrow(end - start));
+    let length = I::V::only(is_lit, length);
 
-    let [edge_a, edge_b] = [line.end_at(ray, edges[0] - rho), line.end_at(ray, edges[1] - rho)];
+    let [[edge_a, rest_a], [edge_b, rest_b]] = [line.end_at(ray, edges[0] - rho), line.end_at(ray, edges[1] - rho)];
     let valid = line.valid
         & largest::<I>(spot.position).le(c(FARTHEST))
         & I::V::narrow(q).abs().le(c(TOLERANCE))
         & zero.le(cos_outer)
         & cos_outer.le(cos_inner)
         & cos_inner.le(c(1.0));
-    let of_lit = Lit {
-        a: End { t: I::V::select(clip_a, edge_a.t, ray.t_min), t_low: I::V::only(clip_a, edge_a.t_low) },
-        b: End { t: I::V::select(clip_b, edge_b.t, line.t_max), t_low: I::V::only(clip_b, edge_b.t_low) },
-        length,
-        valid,
-    };
+    let lit = Lit { a: I::V::select(clip_a, edge_a, ray.t_min), b: I::V::select(clip_b, edge_b, line.t_max), length };
 
     let no = none(isa);
     let scaled = Scaled { start, end, unit, over_r };
@@ -226,10 +221,12 @@ pub(crate) fn locate<I: Isa>(isa: I, ray: &RayLanes<I>, spot: &SpotLanes<I>) -> 
     let (m_a, m_b) = (I::V::narrow(beta.mul_add(start, alpha_h)), I::V::narrow(beta.mul_add(end, alpha_h)));
     let m_least = I::V::select(zero.le(beta_rounded), m_a, m_b).max(zero);
     let cosine = Cosine { m_least, beta: beta_rounded, has_normal: no };
-    let foot = line.foot([I::V::narrow(start), I::V::narrow(end)], I::V::narrow(alpha_h));
+    let (foot, h_squared) = line.foot([I::V::narrow(start), I::V::narrow(end)]);
+    let rests = Rests { a: I::V::only(clip_a, rest_a), b: I::V::only(clip_b, rest_b), h_squared };
     let fall = cos_inner - cos_outer;
     let (hard, inv_fall) = (fall.le(zero), c(1.0) / fall.max(c(LEAST_FALL)));
-    ((of_lit, cosine, foot), Cone { before, after, cos_outer, inv_fall, hard, is_spot: spot.is_spot(isa) })
+    let located = Located { lit, rests, cosine, foot, alpha_h: I::V::narrow(alpha_h), valid };
+    (located, Cone { before, after, cos_outer, inv_fall, hard, is_spot: spot.is_spot(isa) })
 }
 
 /// Less than the difference of any two different f32 cosines.

@@ -18,7 +18,7 @@
 //! 3. The length of a clipped interval is `max(m_a, m_b)/|beta|`, not a difference of distances.
 //! 4. A ray within 1e-30 rad of the emitter's plane is not clipped: if one end is dark, all of it is.
 
-use super::{Cosine, EmitterLanes, End, Foot, Lit, Located, RayLanes, TOLERANCE, dot, largest, widen};
+use super::{Cosine, EmitterLanes, Foot, Lit, Located, RayLanes, Rests, TOLERANCE, dot, largest, widen};
 use crate::scene::FARTHEST;
 use crate::simd::math::reciprocal_near;
 use crate::simd::{Double, Isa, Lanes, Number};
@@ -81,29 +81,22 @@ impl<I: Isa> Line<I> {
         Self { d, unit, e, t_h, foot, h_squared, t_max, t_prime, valid, size_squared, least_h }
     }
 
-    /// The foot of the perpendicular, with the given `t'` at the ends of the lit interval and `alpha_h`.
+    /// The foot of the perpendicular, with the given `t'` at the ends of the lit interval; and the remainder of `h^2`.
     #[cfg_attr(optimized, inline(always))]
-    pub(super) fn foot(&self, [a, b]: [I::V; 2], alpha_h: I::V) -> Foot<I> {
+    pub(super) fn foot(&self, [a, b]: [I::V; 2]) -> (Foot<I>, I::V) {
         let h_squared = (self.least_h * self.least_h).max(self.size_squared);
         let t_h = I::V::narrow(self.t_h);
-        Foot {
-            h: h_squared.sqrt(),
-            h_squared,
-            h_squared_low: I::V::narrow(self.h_squared - h_squared.widen()),
-            t_h,
-            t_h_low: I::V::narrow(self.t_h - t_h.widen()),
-            a,
-            b,
-            alpha_h,
-        }
+        let t_h_low = I::V::narrow(self.t_h - t_h.widen());
+        let rest = I::V::narrow(self.h_squared - h_squared.widen());
+        (Foot { h: h_squared.sqrt(), h_squared, t_h, t_h_low, a, b }, rest)
     }
 
-    /// The end at `t'` of a lit interval, clamped to the ray.
+    /// The distance of the point at `t'`, clamped to the ray, and the remainder of its rounding.
     #[cfg_attr(optimized, inline(always))]
-    pub(super) fn end_at(&self, ray: &RayLanes<I>, t_prime: I::Double) -> End<I> {
+    pub(super) fn end_at(&self, ray: &RayLanes<I>, t_prime: I::Double) -> [I::V; 2] {
         let exact = self.t_h + t_prime;
         let t = I::V::narrow(exact).max(ray.t_min).min(self.t_max);
-        End { t, t_low: I::V::narrow(exact - t.widen()) }
+        [t, I::V::narrow(exact - t.widen())]
     }
 }
 
@@ -154,15 +147,18 @@ pub(super) fn locate<I: Isa>(isa: I, ray: &RayLanes<I>, emitter: &EmitterLanes<I
     let tn = I::V::narrow(t_prime_n).max(ta).min(tb);
     let lit_length = (m_a.max(m_b) * inv_beta.abs()).min(length);
     let length = I::V::select(both, c(0.0), I::V::select(clip_a | clip_b, lit_length, length));
-    let End { t: t_n, t_low: t_n_low } = line.end_at(ray, t_prime_n);
+    let [t_n, rest_n] = line.end_at(ray, t_prime_n);
 
-    let lit = Lit {
-        a: End { t: I::V::select(clip_a, t_n, ray.t_min), t_low: I::V::only(clip_a, t_n_low) },
-        b: End { t: I::V::select(clip_b, t_n, t_max), t_low: I::V::only(clip_b, t_n_low) },
-        length,
-        valid: emitter.valid & line.valid,
-    };
+    let lit = Lit { a: I::V::select(clip_a, t_n, ray.t_min), b: I::V::select(clip_b, t_n, t_max), length };
     let cosine = Cosine { m_least: m_a.min(m_b).max(c(0.0)), beta, has_normal };
     let ends = [I::V::select(clip_a, tn, ta), I::V::select(clip_b, tn, tb)];
-    (lit, cosine, line.foot(ends, I::V::narrow(alpha_h)))
+    let (foot, h_squared) = line.foot(ends);
+    Located {
+        lit,
+        rests: Rests { a: I::V::only(clip_a, rest_n), b: I::V::only(clip_b, rest_n), h_squared },
+        cosine,
+        foot,
+        alpha_h: I::V::narrow(alpha_h),
+        valid: emitter.valid & line.valid,
+    }
 }

@@ -3,13 +3,14 @@
 //! A point is known by its distances from both ends of the lit interval and by `t' = t - t_h`, each from where it does not
 //! cancel; `t` is rounded from the nearest of these places.
 
-use super::{Angle, End, Geometry, Point};
+use super::{Angle, Geometry, Point};
 use crate::simd::{Isa, Lanes, Number};
 
 impl<I: Isa> Geometry<'_, I> {
-    /// (2.8), (2.9): the point at an angle from an end.
+    /// (2.8), (2.9): the point at an angle from an end. If not `exact`, `t` is computed from the place that `t'` is
+    /// computed from.
     #[cfg_attr(optimized, inline(always))]
-    pub(crate) fn point_at_angle(&self, isa: I, angle: &Angle<I>) -> Point<I> {
+    pub(crate) fn point_at_angle(&self, isa: I, angle: &Angle<I>, exact: bool) -> Point<I> {
         let c = |x| isa.splat(x);
         let Angle { from_a, tan_half: tau } = *angle;
         let (h, h_squared) = (self.foot.h, self.foot.h_squared);
@@ -23,12 +24,13 @@ impl<I: Isa> Geometry<'_, I> {
         let offset = ((tau + tau) * (re_squared * scale)).min(self.lit.length);
         let by_angle = (h * scale) * tau.mul_add((-te).mul_add(tau, h + h), te);
         // Near the end, t' is more exact as the end's plus the offset.
-        let towards = I::V::select((offset + offset).lt(te.abs()), te + offset, by_angle);
-        // t from the end or from the foot, whichever is nearer.
-        let near_end = offset.lt(towards.abs());
+        let by_end = (offset + offset).lt(te.abs());
+        let towards = I::V::select(by_end, te + offset, by_angle);
+        // t from the end or from the foot, of `exact` from the nearer one.
+        let near_end = if exact { offset.lt(towards.abs()) } else { by_end };
         let way = I::V::select(near_end, offset, towards);
-        let base = I::V::select(near_end, of_end(self.lit.a.t, self.lit.b.t), self.foot.t_h);
-        let low = I::V::select(near_end, of_end(self.lit.a.t_low, self.lit.b.t_low), self.foot.t_h_low);
+        let base = I::V::select(near_end, of_end(self.lit.a, self.lit.b), self.foot.t_h);
+        let low = I::V::select(near_end, of_end(self.rests.a, self.rests.b), self.foot.t_h_low);
         let t = self.within(base + sign.mul_add(way, low));
         let t_prime = sign * towards;
 
@@ -85,7 +87,7 @@ impl<I: Isa> Geometry<'_, I> {
     pub(crate) fn point_at_distance(&self, isa: I, t: I::V) -> Point<I> {
         let [t_prime, t_prime_low] = self.foot.t_prime(t);
         let r = self.foot.r(t_prime);
-        let m = self.m_inside(isa, (t - self.lit.a.t) - self.lit.a.t_low, (self.lit.b.t - t) + self.lit.b.t_low, r);
+        let m = self.m_inside(isa, (t - self.lit.a) - self.rests.a, (self.lit.b - t) + self.rests.b, r);
         Point { t, t_prime, t_prime_low, r, m }
     }
 
@@ -96,8 +98,8 @@ impl<I: Isa> Geometry<'_, I> {
         let exact = t_64 - self.foot.exact_t_h();
         let t_prime = I::V::narrow(exact);
         let t_prime_low = I::V::narrow(exact - t_prime.widen());
-        let from_a = I::V::narrow((t_64 - self.lit.a.t.widen()) - self.lit.a.t_low.widen());
-        let to_b = I::V::narrow((self.lit.b.t.widen() - t_64) + self.lit.b.t_low.widen());
+        let from_a = I::V::narrow((t_64 - self.lit.a.widen()) - self.rests.a.widen());
+        let to_b = I::V::narrow((self.lit.b.widen() - t_64) + self.rests.b.widen());
         let r = self.foot.r(t_prime);
         let m = self.m_inside(isa, from_a, to_b, r);
         let t = (t_min + s).min(t_max);
@@ -108,33 +110,33 @@ impl<I: Isa> Geometry<'_, I> {
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn start(&self, isa: I, r_a: I::V) -> Point<I> {
         let [m, _] = self.m_at_ends(isa);
-        Point { t: self.lit.a.t, t_prime: self.foot.a, t_prime_low: isa.splat(0.0), r: r_a, m }
+        Point { t: self.lit.a, t_prime: self.foot.a, t_prime_low: isa.splat(0.0), r: r_a, m }
     }
 
     /// `X` and `r` \[m\] in f64 at the ends of the lit interval, given the rounded `r` there.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn exact_ends(&self, isa: I, [r_a, r_b]: [I::V; 2]) -> [(I::Double, I::Double); 2] {
-        [self.exact_end(isa, &self.lit.a, r_a), self.exact_end(isa, &self.lit.b, r_b)]
+        [self.exact_end(isa, self.lit.a, self.rests.a, r_a), self.exact_end(isa, self.lit.b, self.rests.b, r_b)]
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn exact_end(&self, isa: I, end: &End<I>, r: I::V) -> (I::Double, I::Double) {
-        let exact = (end.t.widen() + end.t_low.widen()) - self.foot.exact_t_h();
+    fn exact_end(&self, isa: I, t: I::V, rest: I::V, r: I::V) -> (I::Double, I::Double) {
+        let exact = (t.widen() + rest.widen()) - self.foot.exact_t_h();
         let t_prime = I::V::narrow(exact);
         let t_prime_low = I::V::narrow(exact - t_prime.widen());
-        self.foot.exact_x_and_r(isa, &Point { t: end.t, t_prime, t_prime_low, r, m: isa.splat(0.0) })
+        self.exact_x_and_r(isa, &Point { t, t_prime, t_prime_low, r, m: isa.splat(0.0) })
     }
 
     /// The distance of `t` from the start of the lit interval \[m\], 0 before it.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn way_from_a(&self, isa: I, t: I::V) -> I::V {
-        ((t - self.lit.a.t) - self.lit.a.t_low).max(isa.splat(0.0))
+        ((t - self.lit.a) - self.rests.a).max(isa.splat(0.0))
     }
 
     /// The distance of `t` from the end of the lit interval \[m\], 0 beyond it.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn way_to_b(&self, isa: I, t: I::V) -> I::V {
-        ((self.lit.b.t - t) + self.lit.b.t_low).max(isa.splat(0.0))
+        ((self.lit.b - t) + self.rests.b).max(isa.splat(0.0))
     }
 
     /// The distance to the other end, of a point `offset` from one end: from `l`, or from `t'` where that is smaller.
@@ -151,15 +153,15 @@ impl<I: Isa> Geometry<'_, I> {
         let at_b = to_b.lt(from_a);
         let by_foot = t_prime.abs().lt(from_a.min(to_b));
         let pick = |foot: I::V, a: I::V, b: I::V| I::V::select(by_foot, foot, I::V::select(at_b, b, a));
-        let base = pick(self.foot.t_h, self.lit.a.t, self.lit.b.t);
-        let low = pick(self.foot.t_h_low, self.lit.a.t_low, self.lit.b.t_low);
+        let base = pick(self.foot.t_h, self.lit.a, self.lit.b);
+        let low = pick(self.foot.t_h_low, self.rests.a, self.rests.b);
         self.within(base + (low + pick(t_prime, from_a, -to_b)))
     }
 
     /// `t`, clamped to the lit interval.
     #[cfg_attr(optimized, inline(always))]
     fn within(&self, t: I::V) -> I::V {
-        t.max(self.lit.a.t).min(self.lit.b.t)
+        t.max(self.lit.a).min(self.lit.b)
     }
 
     /// The cosine `N` at a point; 1 for spots.

@@ -48,7 +48,7 @@ impl<Q: Question> Task for Q {
 
 impl<Q: Question> OfDensity for Q {
     fn groups<I: Isa, D: Kind>(isa: I, precision: Precision, inputs: &Inputs<'_>, mut out: &mut [f32]) -> Counts {
-        let mut tally = Tally::new(isa, inputs);
+        let mut tally = Tally::new::<I>(inputs);
         let (mut set_ups, mut pad) = (SetUps::<I, D>::new(), None);
         let wanted = Wanted { precision, extent: D::On::<I>::EXTENT, records: SetUps::<I, D>::SIZE };
         for_each_block(isa, inputs, wanted, |block| {
@@ -60,7 +60,7 @@ impl<Q: Question> OfDensity for Q {
                 });
             });
         });
-        tally.counts(isa, inputs)
+        tally.counts::<I>(inputs)
     }
 }
 
@@ -72,7 +72,7 @@ fn answers<I: Isa, D: Kind, Q: Question>(
     turns: &[Turn],
     t: &[f32],
     out: &mut [f32],
-    tally: &mut Tally<I>,
+    tally: &mut Tally,
 ) {
     isa.vectorize::<D, _>(
         #[cfg_attr(optimized, inline(always))]
@@ -86,7 +86,7 @@ fn answers<I: Isa, D: Kind, Q: Question>(
                 let sampled = valid & *lit;
                 let answer = Q::answer(isa, density, geometry, &geometry.point_at_distance(isa, t));
                 isa.store(I::V::only(sampled, answer), out);
-                tally.add(valid, sampled, none(isa));
+                tally.add::<I>(valid, sampled, none(isa));
             }
         },
     );

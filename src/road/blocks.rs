@@ -2,7 +2,8 @@
 //!
 //! A pass reads the records of the pass before and writes its own; they stay in the nearest caches. The passes are
 //!
-//! 1. geometry, the part that is needed: the lit interval, then the foot of the perpendicular, hard lanes in f64, and spots in f64;
+//! 1. geometry, the part that is needed: the lit interval, then the foot of the perpendicular (`Fast` has both in one pass), hard
+//!    lanes in f64, and spots in f64;
 //! 2. set-up, inversion and output of a density, a pass each: the shorter a pass, the more groups are in flight at a time. The Taylor
 //!    densities, whose set-ups do not fit the nearest cache, take one pass if each ray has one variate;
 //! 3. weights, the same for all densities.
@@ -13,9 +14,11 @@ use crate::batch::{
     MediumGroups, RayGroups, Run, Turn,
 };
 use crate::density::{Density, Kind, SetUp};
-use crate::geometry::{Cone, Cosine, Extent, Foot, Geometry, Lit, clip, find_foot, in_cone, in_f64, pick};
+use crate::geometry::{
+    Clipped, Cone, Cosine, Extent, Foot, FoundFoot, Geometry, Lit, Located, Rests, clip, find_foot, in_cone, in_f64,
+};
 use crate::integrand::MediumLanes;
-use crate::simd::{GROUPS, Isa, Lanes, MOST_LANES, Records, Room, none};
+use crate::simd::{GROUPS, Isa, Lanes, Records, Room, none};
 use core::ops::Range;
 
 /// The first turn of every group of a block.
@@ -36,12 +39,8 @@ pub(super) struct Block<'b, I: Isa> {
     /// The numbers of the groups in the chunk.
     pub(super) groups: Range<usize>,
     /// The media of the groups.
-    pub(super) media: MediaRows<'b>,
-    lits: &'b [Lit<I>],
-    cosines: &'b [Cosine<I>],
-    feet: &'b [Foot<I>],
-    /// Empty if there are no spots.
-    cones: &'b [Cone<I>],
+    pub(super) media: &'b MediaRows<'b>,
+    geometries: Geometries<'b, I>,
 }
 
 impl<I: Isa> Block<'_, I> {
@@ -61,17 +60,20 @@ impl<I: Isa> Block<'_, I> {
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn geometries(&self) -> Geometries<'_, I> {
         // Equal lengths remove bounds checks.
-        let count = self.groups.len();
-        let (lits, cosines, feet) = (&self.lits[..count], &self.cosines[..count], &self.feet[..count]);
-        Geometries { lits, cosines, feet, cones: self.cones }
+        self.geometries.part(0..self.groups.len())
     }
 }
 
 /// The geometries of a block.
+#[derive(Clone, Copy)]
 pub(super) struct Geometries<'b, I: Isa> {
     lits: &'b [Lit<I>],
+    rests: &'b [Rests<I>],
     cosines: &'b [Cosine<I>],
     feet: &'b [Foot<I>],
+    alphas: &'b [I::V],
+    valid: &'b [I::Mask],
+    /// Empty if there are no spots.
     cones: &'b [Cone<I>],
 }
 
@@ -79,8 +81,30 @@ impl<I: Isa> Geometries<'_, I> {
     /// The geometry of a record.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn get(&self, record: usize) -> Geometry<'_, I> {
-        let (lit, cosine, foot) = (&self.lits[record], &self.cosines[record], &self.feet[record]);
-        Geometry { lit, cosine, foot, cone: self.cones.get(record) }
+        Geometry {
+            lit: &self.lits[record],
+            rests: &self.rests[record],
+            cosine: &self.cosines[record],
+            foot: &self.feet[record],
+            alpha_h: self.alphas[record],
+            valid: self.valid[record],
+            cone: self.cones.get(record),
+        }
+    }
+}
+
+impl<'b, I: Isa> Geometries<'b, I> {
+    #[cfg_attr(optimized, inline(always))]
+    fn part(&self, range: Range<usize>) -> Self {
+        Self {
+            lits: &self.lits[range.clone()],
+            rests: &self.rests[range.clone()],
+            cosines: &self.cosines[range.clone()],
+            feet: &self.feet[range.clone()],
+            alphas: &self.alphas[range.clone()],
+            valid: &self.valid[range.clone()],
+            cones: self.cones.get(range).unwrap_or_default(),
+        }
     }
 }
 
@@ -108,20 +132,24 @@ pub(super) fn for_each_block<I: Isa>(
     let (at_once, count) = (groups_at_once::<I>(), inputs.len() / I::V::N);
     let each = inputs.emitters.points.differs();
     let mut places = Places::new();
+    let mut located_cones = Records::new();
     isa.vectorize::<Foot<I>, _>(
         #[cfg_attr(optimized, inline(always))]
         || {
             // Placeholders for what is not needed.
+            let most = at_once.min(count);
             if wanted.extent == Extent::Lit {
                 let none = Foot::none(isa);
-                places.feet.fill(at_once.min(count), |_| none);
+                places.feet.fill(most, |_| none);
             }
             if wanted.extent != Extent::Cosine {
-                let none = Cosine::none(isa);
-                places.cosines.fill(at_once.min(count), |_| none);
+                let (none, zero) = (Cosine::none(isa), isa.splat(0.0));
+                places.cosines.fill(most, |_| none);
+                places.alphas.fill(most, |_| zero);
             }
         },
     );
+    clear_rests(isa, at_once.min(count), &mut places);
     let locate = match (wanted.extent, wanted.precision) {
         // The f32 geometry needs the remainder of a product, which only a fused multiply-add gives.
         (Extent::Lit, _) if !I::FUSED => in_double::<I, false, false>,
@@ -147,23 +175,27 @@ pub(super) fn for_each_block<I: Isa>(
         let rays = groups.start * I::V::N..groups.end * I::V::N;
         let emitters = inputs.emitters.points.rows(rays.clone(), &mut emitters);
         let cones = inputs.emitters.cones.map(|source| source.rows(rays.clone(), &mut cones));
-        let media = inputs.media.rows(rays, &mut media);
+        let rows = inputs.media.rows(rays, &mut media);
         locate(isa, inputs, emitters, groups.clone(), &mut places);
         if let Some(cones) = cones {
-            in_cones(isa, inputs, emitters, cones, groups.start, &mut places);
+            in_cones(isa, inputs, emitters, cones, groups.start, &mut places, &mut located_cones);
         }
-        let (lits, cosines, feet) = (places.lits.written(), places.cosines.written(), places.feet.written());
-        let cones = places.cones.written();
+        let geometries = Geometries { cones: located_cones.written(), ..places.geometries() };
         for part in (0..groups.len()).step_by(wanted.records) {
             let part = part..groups.len().min(part + wanted.records);
+            let of_part;
+            // Rows of all columns of coloured media are long to copy.
+            let media = if part.len() == groups.len() {
+                &rows
+            } else {
+                of_part = rows.part(part.start * I::V::N..part.end * I::V::N);
+                &of_part
+            };
             visit(&Block {
                 inputs,
                 groups: groups.start + part.start..groups.start + part.end,
-                media: media.part(part.start * I::V::N..part.end * I::V::N),
-                lits: &lits[part.clone()],
-                cosines: &cosines[part.clone()],
-                feet: &feet[part.clone()],
-                cones: cones.get(part).unwrap_or_default(),
+                media,
+                geometries: geometries.part(part),
             });
         }
     }
@@ -172,11 +204,15 @@ pub(super) fn for_each_block<I: Isa>(
 /// Storage for the records of a block's geometry.
 struct Places<I: Isa> {
     lits: Records<Lit<I>>,
+    rests: Records<Rests<I>>,
+    /// Whether lanes in f64 may have left rests that differ from 0.
+    has_rests: bool,
     /// `|d| - 1`.
     excesses: Records<I::V>,
     cosines: Records<Cosine<I>>,
     feet: Records<Foot<I>>,
-    cones: Records<Cone<I>>,
+    alphas: Records<I::V>,
+    valid: Records<I::Mask>,
 }
 
 impl<I: Isa> Places<I> {
@@ -184,12 +220,56 @@ impl<I: Isa> Places<I> {
     fn new() -> Self {
         Self {
             lits: Records::new(),
+            rests: Records::new(),
+            has_rests: false,
             excesses: Records::new(),
             cosines: Records::new(),
             feet: Records::new(),
-            cones: Records::new(),
+            alphas: Records::new(),
+            valid: Records::new(),
         }
     }
+
+    /// Replaces a record by `located`, the parts that are computed.
+    #[cfg_attr(optimized, inline(always))]
+    fn replace<const FOOT: bool, const COSINE: bool>(&mut self, record: usize, located: &Located<I>) {
+        self.lits.written()[record] = located.lit;
+        self.valid.written()[record] = located.valid;
+        if FOOT {
+            self.rests.written()[record] = located.rests;
+            self.has_rests = true;
+            self.feet.written()[record] = located.foot;
+        }
+        if COSINE {
+            self.cosines.written()[record] = located.cosine;
+            self.alphas.written()[record] = located.alpha_h;
+        }
+    }
+
+    #[cfg_attr(optimized, inline(always))]
+    fn geometries(&mut self) -> Geometries<'_, I> {
+        Geometries {
+            lits: self.lits.written(),
+            rests: self.rests.written(),
+            cosines: self.cosines.written(),
+            feet: self.feet.written(),
+            alphas: self.alphas.written(),
+            valid: self.valid.written(),
+            cones: &[],
+        }
+    }
+}
+
+/// Sets the first `count` rests to 0.
+fn clear_rests<I: Isa>(isa: I, count: usize, places: &mut Places<I>) {
+    isa.vectorize::<Foot<I>, _>(
+        #[cfg_attr(optimized, inline(always))]
+        || {
+            let none = Rests::none(isa);
+            places.rests.fill(count, |_| none);
+            places.has_rests = false;
+        },
+    );
 }
 
 /// Calls `visit` for runs of the turns of a block, each at most as long as there is storage for records.
@@ -213,49 +293,33 @@ pub(super) fn for_each_run<I: Isa>(block: &Block<'_, I>, mut visit: impl FnMut(R
     visit(inputs.run(&turns[..count], groups.start, I::V::N));
 }
 
-/// The counts of a chunk, summed in the lanes: whole numbers that f32 can hold.
+/// The counts of a chunk.
 #[derive(Clone, Copy)]
-pub(super) struct Tally<I: Isa> {
-    valid: I::V,
-    sampled: I::V,
-    bisected: I::V,
-    /// The weight of a value: 1 in lanes that are counted, 0 in others.
-    one: I::V,
+pub(super) struct Tally {
+    valid: usize,
+    sampled: usize,
+    bisected: usize,
+    /// The lanes that are counted, a bit each.
+    lanes: u32,
 }
 
-impl<I: Isa> Tally<I> {
-    pub(super) fn new(isa: I, inputs: &Inputs<'_>) -> Self {
-        let mut ones = [0.0; MOST_LANES];
-        ones[inputs.counted(I::V::N)].fill(1.0);
-        isa.vectorize::<Foot<I>, _>(
-            #[cfg_attr(optimized, inline(always))]
-            || {
-                let (zero, one) = (isa.splat(0.0), isa.load(&I::groups(&ones)[0]));
-                Self { valid: zero, sampled: zero, bisected: zero, one }
-            },
-        )
+impl Tally {
+    pub(super) fn new<I: Isa>(inputs: &Inputs<'_>) -> Self {
+        let lanes = inputs.counted(I::V::N).fold(0, |lanes, lane| lanes | 1 << lane);
+        Self { valid: 0, sampled: 0, bisected: 0, lanes }
     }
 
     /// Adds a value for each lane: whether it is `valid`, and if so `sampled`, and if so `bisected`.
     #[cfg_attr(optimized, inline(always))]
-    pub(super) fn add(&mut self, valid: I::Mask, sampled: I::Mask, bisected: I::Mask) {
-        self.valid = self.valid + I::V::only(valid, self.one);
-        self.sampled = self.sampled + I::V::only(sampled, self.one);
-        self.bisected = self.bisected + I::V::only(bisected & sampled, self.one);
+    pub(super) fn add<I: Isa>(&mut self, valid: I::Mask, sampled: I::Mask, bisected: I::Mask) {
+        // In scalar registers, which kernels use little.
+        self.valid += (I::V::bits(valid) & self.lanes).count_ones() as usize;
+        self.sampled += (I::V::bits(sampled) & self.lanes).count_ones() as usize;
+        self.bisected += (I::V::bits(bisected & sampled) & self.lanes).count_ones() as usize;
     }
 
-    pub(super) fn counts(self, isa: I, inputs: &Inputs<'_>) -> Counts {
-        let mut sums = [[0.0; MOST_LANES]; 3];
-        isa.vectorize::<Foot<I>, _>(
-            #[cfg_attr(optimized, inline(always))]
-            || {
-                let [valid, sampled, bisected] = &mut sums;
-                isa.store(self.valid, &mut I::groups_mut(valid)[0]);
-                isa.store(self.sampled, &mut I::groups_mut(sampled)[0]);
-                isa.store(self.bisected, &mut I::groups_mut(bisected)[0]);
-            },
-        );
-        let [valid, sampled, bisected] = sums.map(|lanes| lanes.iter().sum::<f32>() as usize);
+    pub(super) fn counts<I: Isa>(self, inputs: &Inputs<'_>) -> Counts {
+        let Self { valid, sampled, bisected, .. } = self;
         let values = inputs.len() / I::V::N * inputs.per_ray * inputs.counted(I::V::N).len();
         Counts { sampled, empty: valid - sampled, invalid: values - valid, bisected }
     }
@@ -272,6 +336,10 @@ fn in_single<I: Isa, const EXACT: bool, const FOOT: bool, const COSINE: bool, co
     groups: Range<usize>,
     places: &mut Places<I>,
 ) {
+    // Without `EXACT` lanes in f32 have no rests; those of the block before may have some.
+    if FOOT && !EXACT && places.has_rests {
+        clear_rests(isa, groups.len(), places);
+    }
     // Whether all lanes are easy, and whether any is.
     let [mut every, any] = isa.vectorize::<Foot<I>, _>(
         #[cfg_attr(optimized, inline(always))]
@@ -279,9 +347,11 @@ fn in_single<I: Isa, const EXACT: bool, const FOOT: bool, const COSINE: bool, co
             let rays = inputs.ray_groups::<I>();
             let emitters = emitters.groups(isa);
             let mut emitter = emitters.emitters(isa, 0);
-            let (mut lits, mut excesses) = (places.lits.start(), places.excesses.start());
-            let mut cosines = places.cosines.start();
+            let (mut lits, mut rests, mut excesses) =
+                (places.lits.start(), places.rests.start(), places.excesses.start());
+            let (mut cosines, mut valid) = (places.cosines.start(), places.valid.start());
             let (mut every, mut any) = (!none(isa), none(isa));
+            let (mut feet, mut alphas) = (places.feet.start(), places.alphas.start());
             for group in groups.clone() {
                 if inputs.prefetch {
                     rays.prefetch(isa, group, AHEAD);
@@ -290,38 +360,58 @@ fn in_single<I: Isa, const EXACT: bool, const FOOT: bool, const COSINE: bool, co
                     emitter = emitters.emitters(isa, group - groups.start);
                 }
                 let ray = rays.lanes(isa, group);
-                let (lit, excess, cosine) = clip::<I, EXACT, FOOT, COSINE>(isa, &ray, &emitter);
-                (every, any) = (every & lit.valid, any | lit.valid);
-                lits.push(lit);
+                let mut clipped = clip::<I, EXACT, FOOT, COSINE>(isa, &ray, &emitter);
+                if FOOT && !EXACT {
+                    let FoundFoot { foot, alpha_h, easy, .. } =
+                        find_foot::<I, EXACT, COSINE>(isa, &ray, &emitter, &clipped);
+                    clipped.easy = easy;
+                    feet.push(foot);
+                    if COSINE {
+                        alphas.push(alpha_h);
+                    }
+                }
+                (every, any) = (every & clipped.easy, any | clipped.easy);
+                lits.push(clipped.lit);
+                if FOOT && EXACT {
+                    rests.push(clipped.rests);
+                    excesses.push(clipped.excess);
+                }
                 if COSINE {
-                    cosines.push(cosine);
+                    cosines.push(clipped.cosine);
                 }
-                if FOOT {
-                    excesses.push(excess);
-                }
+                valid.push(clipped.easy);
             }
             lits.done();
-            excesses.done();
+            if FOOT && EXACT {
+                rests.done();
+                excesses.done();
+            } else if FOOT {
+                feet.done();
+                if COSINE {
+                    alphas.done();
+                }
+            }
             if COSINE {
                 cosines.done();
             }
+            valid.done();
             [I::V::bits(!every) == 0, I::V::bits(any) != 0]
         },
     );
     if !any {
         return in_double::<I, FOOT, COSINE>(isa, inputs, emitters, groups, places);
     }
-    // A pass of its own: both together do not fit the registers.
-    if FOOT {
-        every = find_feet::<I, EXACT, COSINE, DIFFER>(isa, inputs, emitters, groups.start, places);
+    // A pass of its own: exact intervals and feet together do not fit the registers.
+    if FOOT && EXACT {
+        every = find_feet::<I, COSINE, DIFFER>(isa, inputs, emitters, groups.start, places);
     }
     if !every {
         rescue::<I, FOOT, COSINE>(isa, inputs, emitters, groups.start, places);
     }
 }
 
-/// Computes the feet of the perpendiculars after the lit intervals; returns whether all lanes are easy.
-fn find_feet<I: Isa, const EXACT: bool, const COSINE: bool, const DIFFER: bool>(
+/// Computes the feet of the perpendiculars of exact precision after the lit intervals; returns whether all lanes are easy.
+fn find_feet<I: Isa, const COSINE: bool, const DIFFER: bool>(
     isa: I,
     inputs: &Inputs<'_>,
     emitters: EmitterRows<'_>,
@@ -335,19 +425,36 @@ fn find_feet<I: Isa, const EXACT: bool, const COSINE: bool, const DIFFER: bool>(
             let emitters = emitters.groups(isa);
             let mut emitter = emitters.emitters(isa, 0);
             let lits = places.lits.written();
-            let (excesses, cosines) =
-                (&places.excesses.written()[..lits.len()], &places.cosines.written()[..lits.len()]);
-            let mut feet = places.feet.start();
+            // Equal lengths remove bounds checks.
+            let count = lits.len();
+            let (rests, valid) = (&mut places.rests.written()[..count], &mut places.valid.written()[..count]);
+            let (excesses, cosines) = (&places.excesses.written()[..count], &places.cosines.written()[..count]);
+            let (mut feet, mut alphas) = (places.feet.start(), places.alphas.start());
             let mut every = !none(isa);
-            for (record, lit) in lits.iter_mut().enumerate() {
+            for record in 0..count {
                 if DIFFER {
                     emitter = emitters.emitters(isa, record);
                 }
-                let (ray, excess, cosine) = (rays.lanes(isa, start + record), excesses[record], &cosines[record]);
-                let foot;
-                (foot, lit.valid) = find_foot::<I, EXACT, COSINE>(isa, &ray, &emitter, lit, excess, cosine);
-                every = every & lit.valid;
+                let ray = rays.lanes(isa, start + record);
+                let clipped = Clipped {
+                    lit: lits[record],
+                    rests: rests[record],
+                    excess: excesses[record],
+                    q: isa.splat(0.0),
+                    cosine: cosines[record],
+                    easy: valid[record],
+                };
+                let FoundFoot { foot, h_squared_rest, alpha_h, easy } =
+                    find_foot::<I, true, COSINE>(isa, &ray, &emitter, &clipped);
+                (every, valid[record]) = (every & easy, easy);
+                rests[record].h_squared = h_squared_rest;
                 feet.push(foot);
+                if COSINE {
+                    alphas.push(alpha_h);
+                }
+            }
+            if COSINE {
+                alphas.done();
             }
             feet.done();
             I::V::bits(!every) == 0
@@ -370,23 +477,15 @@ fn rescue<I: Isa, const FOOT: bool, const COSINE: bool>(
             let rays = inputs.ray_groups::<I>();
             let emitters = emitters.groups(isa);
             let mut emitter = emitters.emitters(isa, 0);
-            let (lits, cosines, feet) = (places.lits.written(), places.cosines.written(), places.feet.written());
-            for (record, ((lit, cosine), foot)) in lits.iter_mut().zip(cosines).zip(feet).enumerate() {
-                let hard = !lit.valid;
+            for record in 0..places.lits.written().len() {
+                let hard = !places.valid.written()[record];
                 if I::V::bits(hard) != 0 {
-                    let group = start + record;
                     if emitters.differ() {
                         emitter = emitters.emitters(isa, record);
                     }
-                    let exact = in_f64(isa, &rays.lanes(isa, group), &emitter);
-                    let (of_lit, of_cosine, of_foot) = pick(hard, &exact, Geometry { lit, cosine, foot, cone: None });
-                    *lit = of_lit;
-                    if COSINE {
-                        *cosine = of_cosine;
-                    }
-                    if FOOT {
-                        *foot = of_foot;
-                    }
+                    let exact = in_f64(isa, &rays.lanes(isa, start + record), &emitter);
+                    let located = exact.or(hard, places.geometries().get(record));
+                    places.replace::<FOOT, COSINE>(record, &located);
                 }
             }
         },
@@ -407,7 +506,9 @@ fn in_double<I: Isa, const FOOT: bool, const COSINE: bool>(
             let rays = inputs.ray_groups::<I>();
             let emitters = emitters.groups(isa);
             let (mut emitter, start) = (emitters.emitters(isa, 0), groups.start);
-            let (mut lits, mut cosines, mut feet) = (places.lits.start(), places.cosines.start(), places.feet.start());
+            let (mut lits, mut rests, mut valid) = (places.lits.start(), places.rests.start(), places.valid.start());
+            let (mut cosines, mut alphas) = (places.cosines.start(), places.alphas.start());
+            let mut feet = places.feet.start();
             for group in groups {
                 if inputs.prefetch {
                     rays.prefetch(isa, group, AHEAD);
@@ -415,21 +516,28 @@ fn in_double<I: Isa, const FOOT: bool, const COSINE: bool>(
                 if emitters.differ() {
                     emitter = emitters.emitters(isa, group - start);
                 }
-                let (lit, cosine, foot) = in_f64(isa, &rays.lanes(isa, group), &emitter);
-                lits.push(lit);
-                if COSINE {
-                    cosines.push(cosine);
-                }
+                let located = in_f64(isa, &rays.lanes(isa, group), &emitter);
+                lits.push(located.lit);
+                valid.push(located.valid);
                 if FOOT {
-                    feet.push(foot);
+                    rests.push(located.rests);
+                    feet.push(located.foot);
+                }
+                if COSINE {
+                    cosines.push(located.cosine);
+                    alphas.push(located.alpha_h);
                 }
             }
             lits.done();
+            valid.done();
+            if FOOT {
+                rests.done();
+                feet.done();
+                places.has_rests = true;
+            }
             if COSINE {
                 cosines.done();
-            }
-            if FOOT {
-                feet.done();
+                alphas.done();
             }
         },
     );
@@ -443,18 +551,19 @@ fn in_cones<I: Isa>(
     cones: ConeRows<'_>,
     start: usize,
     places: &mut Places<I>,
+    located_cones: &mut Records<Cone<I>>,
 ) {
     isa.vectorize::<Cone<I>, _>(
         #[cfg_attr(optimized, inline(always))]
         || {
             let rays = inputs.ray_groups::<I>();
             let (emitters, cones) = (emitters.groups(isa), cones.groups(isa));
-            let (lits, cosines, feet) = (places.lits.written(), places.cosines.written(), places.feet.written());
-            let mut located = places.cones.start();
-            for (record, ((lit, cosine), foot)) in lits.iter_mut().zip(cosines).zip(feet).enumerate() {
+            let mut located = located_cones.start();
+            for record in 0..places.lits.written().len() {
                 let ray = rays.lanes(isa, start + record);
                 let (exact, cone) = in_cone(isa, &ray, &emitters.spots(isa, &cones, record));
-                (*lit, *cosine, *foot) = pick(cone.is_spot, &exact, Geometry { lit, cosine, foot, cone: None });
+                let exact = exact.or(cone.is_spot, places.geometries().get(record));
+                places.replace::<true, true>(record, &exact);
                 located.push(cone);
             }
             located.done();

@@ -65,7 +65,7 @@ impl<const K: usize> Kernel for OnGroups<'_, '_, K> {
 
     fn run<I: Isa>(self, isa: I) -> Counts {
         let Self { lights, inputs, out: (index, probability) } = self;
-        let mut tally = Tally::new(isa, inputs);
+        let mut tally = Tally::new::<I>(inputs);
         let (mut sums, mut searches) = (Records::new(), Records::new());
         let at_once = groups_at_once::<I>() * I::V::N;
         for start in (0..inputs.len()).step_by(at_once) {
@@ -79,7 +79,7 @@ impl<const K: usize> Kernel for OnGroups<'_, '_, K> {
             }
             block.write(isa, searches.written(), index, probability, &mut tally);
         }
-        tally.counts(isa, inputs)
+        tally.counts::<I>(inputs)
     }
 }
 
@@ -280,7 +280,7 @@ impl<const K: usize> OfBlock<'_, '_, K> {
         searches: &[Search<I>],
         index: &mut [u32],
         probability: &mut [f32],
-        tally: &mut Tally<I>,
+        tally: &mut Tally,
     ) {
         let mut taken = [0.0; MOST_RAYS];
         isa.vectorize::<Rule<K>, _>(
@@ -293,7 +293,7 @@ impl<const K: usize> OfBlock<'_, '_, K> {
                     let sampled = valid & zero.lt(search.total);
                     isa.store(I::V::only(sampled, (search.share / search.total).max(least)), probability);
                     isa.store(I::V::only(sampled, search.taken), taken);
-                    tally.add(valid, sampled, none(isa));
+                    tally.add::<I>(valid, sampled, none(isa));
                 }
             },
         );

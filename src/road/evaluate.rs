@@ -32,14 +32,14 @@ impl Kernel for OnGroups<'_> {
 
     fn run<I: Isa>(self, isa: I) -> Counts {
         let Self { precision, inputs, mut out } = self;
-        let (mut tally, mut pad) = (Tally::new(isa, inputs), None);
+        let (mut tally, mut pad) = (Tally::new::<I>(inputs), None);
         for_each_block(isa, inputs, Wanted { precision, extent: Extent::Cosine, records: GROUPS }, |block| {
             for_each_run(block, |run| {
                 let t = run.values(inputs.given, &mut pad);
                 Columns::of_run(&mut out, run, |out| integrands(isa, block, run.turns, t, out, &mut tally));
             });
         });
-        tally.counts(isa, inputs)
+        tally.counts::<I>(inputs)
     }
 }
 
@@ -50,7 +50,7 @@ fn integrands<I: Isa>(
     turns: &[Turn],
     t: &[f32],
     mut out: Out<'_, Evaluate>,
-    tally: &mut Tally<I>,
+    tally: &mut Tally,
 ) {
     isa.vectorize::<MediumLanes<I>, _>(
         #[cfg_attr(optimized, inline(always))]
@@ -65,13 +65,13 @@ fn integrands<I: Isa>(
                     media.renew(isa, turn.record, &mut medium);
                     let (ray, geometry) = (rays.lanes(isa, group), geometries.get(turn.record));
                     let t = isa.load(t);
-                    let (valid, faced) = (geometry.lit.valid & medium.valid & t.eq(t), geometry.faced(isa));
+                    let (valid, faced) = (geometry.valid & medium.valid & t.eq(t), geometry.faced(isa));
                     let inside = valid & faced & ray.t_min.le(t) & t.le(ray.end(isa));
                     let point = geometry.point_at_distance(isa, t);
                     let f = integrand_r2::<I, true>(isa, &ray, geometry, &medium, &point) / (point.r * point.r);
                     isa.store(I::V::only(inside, f.min(isa.splat(f32::MAX))), out);
                     if column == 0 {
-                        tally.add(valid, valid & faced, none(isa));
+                        tally.add::<I>(valid, valid & faced, none(isa));
                     }
                 }
             }

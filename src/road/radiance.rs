@@ -45,7 +45,7 @@ impl<const K: usize> Kernel for OnGroups<'_, K> {
 
     fn run<I: Isa>(self, isa: I) -> Counts {
         let Self { precision, inputs, mut out } = self;
-        let mut tally = Tally::new(isa, inputs);
+        let mut tally = Tally::new::<I>(inputs);
         for_each_block(isa, inputs, of_integral(precision), |block| {
             isa.vectorize::<Rule<K>, _>(
                 #[cfg_attr(optimized, inline(always))]
@@ -62,7 +62,7 @@ impl<const K: usize> Kernel for OnGroups<'_, K> {
                             |record, Integrated { radiance, valid, lit }| {
                                 isa.store(radiance, &mut out[record]);
                                 if column == 0 {
-                                    tally.add(valid, lit, none(isa));
+                                    tally.add::<I>(valid, lit, none(isa));
                                 }
                             },
                         );
@@ -70,7 +70,7 @@ impl<const K: usize> Kernel for OnGroups<'_, K> {
                 },
             );
         });
-        tally.counts(isa, inputs)
+        tally.counts::<I>(inputs)
     }
 }
 
@@ -118,7 +118,7 @@ pub(super) fn for_each_radiance<I: Isa, const K: usize>(
     for (record, (variable, start)) in variables.iter().zip(starts).enumerate() {
         let geometry = geometries.get(record);
         media.renew(isa, record, &mut medium);
-        let valid = geometry.lit.valid & medium.valid;
+        let valid = geometry.valid & medium.valid;
         let lit = valid & geometry.lit(isa);
         let radiance = Rule::<K>::radiance(isa, geometry, &medium, variable, *start);
         visit(record, Integrated { radiance: I::V::only(lit, radiance.min(isa.splat(f32::MAX))), valid, lit });

@@ -39,7 +39,7 @@ impl<const WITH_WEIGHT_OR_R: bool> Task for Drawing<WITH_WEIGHT_OR_R> {
 
 impl<const WITH_WEIGHT_OR_R: bool> OfDensity for Drawing<WITH_WEIGHT_OR_R> {
     fn groups<I: Isa, D: Kind>(isa: I, precision: Precision, inputs: &Inputs<'_>, mut out: Out<'_, Self>) -> Counts {
-        let mut tally = Tally::new(isa, inputs);
+        let mut tally = Tally::new::<I>(inputs);
         // Apart: an unoptimised build has a tuple of them on the stack twice.
         let mut set_ups = SetUps::<I, D>::new();
         let mut places = Records::new();
@@ -77,7 +77,7 @@ impl<const WITH_WEIGHT_OR_R: bool> OfDensity for Drawing<WITH_WEIGHT_OR_R> {
                 });
             });
         });
-        tally.counts(isa, inputs)
+        tally.counts::<I>(inputs)
     }
 }
 
@@ -89,7 +89,7 @@ fn at_once<'r, I: Isa, D: Kind, const KEEP: bool>(
     u: &[f32],
     points: &'r mut Records<Sampled<I>>,
     out: &mut Samples<'_>,
-    tally: &mut Tally<I>,
+    tally: &mut Tally,
 ) -> &'r [Sampled<I>] {
     isa.vectorize::<D, _>(
         #[cfg_attr(optimized, inline(always))]
@@ -190,7 +190,7 @@ impl<I: Isa, D: Kind> Points<'_, I, D> {
         isa: I,
         points: &'r mut Records<Sampled<I>>,
         out: &mut Samples<'_>,
-        tally: &mut Tally<I>,
+        tally: &mut Tally,
     ) -> &'r [Sampled<I>] {
         isa.vectorize::<D, _>(
             #[cfg_attr(optimized, inline(always))]
@@ -234,14 +234,14 @@ fn point_one<I: Isa, D: Kind>(
     placed: &PlacedBy<I, D>,
     t: &mut I::Group,
     pdf: &mut I::Group,
-    tally: &mut Tally<I>,
+    tally: &mut Tally,
 ) -> Sampled<I> {
     let (SetUp { density, lit, .. }, Placed { place, valid }) = (set_up, placed);
     let sampled = *valid & *lit;
     let drawn = density.point(isa, geometry, place);
     isa.store(I::V::only(sampled, drawn.point.t), t);
     isa.store(I::V::only(sampled, drawn.pdf.over_t), pdf);
-    tally.add(*valid, sampled, drawn.bisected);
+    tally.add::<I>(*valid, sampled, drawn.bisected);
     Sampled { point: drawn.point, times_r2: drawn.pdf.times_r2, sampled }
 }
 

@@ -62,38 +62,38 @@ pub(crate) fn horner_lanes<V: Number, const K: usize>(x: V, c: [V; K]) -> V {
 /// `atan2(y, x)`: the angle of the point `(x, y)`, in `[0, pi]`.
 ///
 /// - Types: f32.
-/// - Max error: 1.4 ulp where `y/x` is exact; else the rounding of this quotient on top.
+/// - Max error: 1.4 ulp if `exact`, else 3.5 ulp, where `y/x` is exact; else the rounding of this quotient on top.
 /// - Range: `y >= 0`, `x` and `y` not both 0.
 #[cfg_attr(optimized, inline(always))]
-pub(crate) fn angle_of<I: Isa>(isa: I, y: I::V, x: I::V) -> I::V {
+pub(crate) fn angle_of<I: Isa>(isa: I, y: I::V, x: I::V, exact: bool) -> I::V {
     let c = |v| isa.splat(v);
     let size = x.abs();
     let q = size.min(y) / size.max(y);
     let z = q * q;
-    let p = horner(
-        isa,
-        z,
-        [
-            -1.793_600_9e-3,
-            1.091_451_6e-2,
-            -3.117_768_3e-2,
-            5.795_743_7e-2,
-            -8.403_441e-2,
-            1.095_218_3e-1,
-            -1.426_424_1e-1,
-            1.999_854_9e-1,
-            -3.333_33e-1,
-        ],
-    );
+    let p = if exact { horner(isa, z, ATAN) } else { horner(isa, z, SHORT_ATAN) };
     // The low digits of the right angles are added to the small terms: the last sum rounds most.
     let back = x.lt(c(0.0));
     let steep = size.lt(y);
     let right_angles = I::V::select(steep, c(PI_2_HIGH), I::V::select(back, c(2.0 * PI_2_HIGH), c(0.0)));
     let q = I::V::select(steep, -q, q);
     let q = I::V::select(back, -q, q);
-    let low = (q * z).mul_add(p, right_angles * c(PI_2_LOW / PI_2_HIGH));
+    let low = if exact { (q * z).mul_add(p, right_angles * c(PI_2_LOW / PI_2_HIGH)) } else { (q * z) * p };
     right_angles + (q + low)
 }
+/// Coefficients, highest degree first, of `(atan q / q - 1) / q^2` in `q^2`, for `|q| <= 1`.
+const ATAN: [f32; 9] = [
+    -1.793_600_9e-3,
+    1.091_451_6e-2,
+    -3.117_768_3e-2,
+    5.795_743_7e-2,
+    -8.403_441e-2,
+    1.095_218_3e-1,
+    -1.426_424_1e-1,
+    1.999_854_9e-1,
+    -3.333_33e-1,
+];
+const SHORT_ATAN: [f32; 7] =
+    [-4.822_535e-3, 2.473_406_5e-2, -6.020_313e-2, 9.968_473e-2, -1.404_132_8e-1, 1.997_421_4e-1, -3.333_239_3e-1];
 const PI_2_HIGH: f32 = core::f32::consts::FRAC_PI_2;
 const PI_2_LOW: f32 = -4.371_139e-8;
 
@@ -118,14 +118,17 @@ const COS: [f32; 5] = [-2.607_711_2e-7, 2.476_188_6e-5, -1.388_840_4e-3, 4.166_6
 /// `tan x`.
 ///
 /// - Types: f32.
-/// - Max error: 1.5 ulp.
+/// - Max error: 1.5 ulp if `exact`, else 5.2 ulp.
 /// - Range: `[0, pi/4]`.
 #[cfg_attr(optimized, inline(always))]
-pub(crate) fn tan<I: Isa>(isa: I, x: I::V) -> I::V {
+pub(crate) fn tan<I: Isa>(isa: I, x: I::V, exact: bool) -> I::V {
     let z = x * x;
-    let p = horner(isa, z, [9.385_594e-3, 3.119_593_7e-3, 2.443_034_2e-2, 5.341_122_3e-2, 1.333_88e-1, 3.333_315_6e-1]);
+    let p = if exact { horner(isa, z, TAN) } else { horner(isa, z, SHORT_TAN) };
     (x * z).mul_add(p, x)
 }
+/// Coefficients, highest degree first, of `(tan x / x - 1) / x^2` in `x^2`, for `|x| <= pi/4`.
+const TAN: [f32; 6] = [9.385_594e-3, 3.119_593_7e-3, 2.443_034_2e-2, 5.341_122_3e-2, 1.333_88e-1, 3.333_315_6e-1];
+const SHORT_TAN: [f32; 5] = [2.011_853_8e-2, 1.298_675e-2, 5.690_418e-2, 1.329_234_7e-1, 3.333_515_8e-1];
 
 /// `exp x`; 0 below -87.3.
 ///
@@ -260,14 +263,19 @@ mod tests {
     const ISA: Portable = Portable;
 
     #[rustfmt::skip]
-    const ALL: [Stated; 12] = [
-        Stated { name: "angle of (1, q)", on: (0.0, 1.0), f: |q| angle_of(ISA, q, one()), exact: |q| q.atan2(1.0), error: ANGLE },
-        Stated { name: "angle of (q, 1)", on: (0.0, 1.0), f: |q| angle_of(ISA, one(), q), exact: |q| 1f64.atan2(q), error: ANGLE },
-        Stated { name: "angle of (-1, q)", on: (0.0, 1.0), f: |q| angle_of(ISA, q, -one()), exact: |q| q.atan2(-1.0), error: ANGLE },
-        Stated { name: "angle of (-q, 1)", on: (0.0, 1.0), f: |q| angle_of(ISA, one(), -q), exact: |q| 1f64.atan2(-q), error: ANGLE },
+    const ALL: [Stated; 17] = [
+        Stated { name: "angle of (1, q), short", on: (0.0, 1.0), f: |q| angle_of(ISA, q, one(), false), exact: |q| q.atan2(1.0), error: SHORT },
+        Stated { name: "angle of (q, 1), short", on: (0.0, 1.0), f: |q| angle_of(ISA, one(), q, false), exact: |q| 1f64.atan2(q), error: SHORT },
+        Stated { name: "angle of (-1, q), short", on: (0.0, 1.0), f: |q| angle_of(ISA, q, -one(), false), exact: |q| q.atan2(-1.0), error: SHORT },
+        Stated { name: "angle of (-q, 1), short", on: (0.0, 1.0), f: |q| angle_of(ISA, one(), -q, false), exact: |q| 1f64.atan2(-q), error: SHORT },
+        Stated { name: "tan, short", on: (0.0, FRAC_PI_4), f: |x| tan(ISA, x, false), exact: f64::tan, error: Ulp(5.2) },
+        Stated { name: "angle of (1, q)", on: (0.0, 1.0), f: |q| angle_of(ISA, q, one(), true), exact: |q| q.atan2(1.0), error: ANGLE },
+        Stated { name: "angle of (q, 1)", on: (0.0, 1.0), f: |q| angle_of(ISA, one(), q, true), exact: |q| 1f64.atan2(q), error: ANGLE },
+        Stated { name: "angle of (-1, q)", on: (0.0, 1.0), f: |q| angle_of(ISA, q, -one(), true), exact: |q| q.atan2(-1.0), error: ANGLE },
+        Stated { name: "angle of (-q, 1)", on: (0.0, 1.0), f: |q| angle_of(ISA, one(), -q, true), exact: |q| 1f64.atan2(-q), error: ANGLE },
         Stated { name: "sin", on: (0.0, FRAC_PI_2), f: |x| sin_cos(ISA, x).0, exact: f64::sin, error: Ulp(2.1) },
         Stated { name: "cos", on: (0.0, FRAC_PI_2), f: |x| sin_cos(ISA, x).1, exact: f64::cos, error: Absolute(1.5) },
-        Stated { name: "tan", on: (0.0, FRAC_PI_4), f: |x| tan(ISA, x), exact: f64::tan, error: Ulp(1.5) },
+        Stated { name: "tan", on: (0.0, FRAC_PI_4), f: |x| tan(ISA, x, true), exact: f64::tan, error: Ulp(1.5) },
         Stated { name: "exp(-x)", on: (0.0, 87.3), f: |x| exp(ISA, (-x).widen()), exact: |x| (-x).exp(), error: Ulp(1.1) },
         Stated { name: "1 - exp(-x)", on: (0.0, 88.0), f: |x| one_minus_exp(ISA, x).0, exact: |x| -(-x).exp_m1(), error: Ulp(1.2) },
         Stated { name: "exp(-x) beside it", on: (0.0, 87.3), f: |x| one_minus_exp(ISA, x).1, exact: |x| (-x).exp(), error: Ulp(1.1) },
@@ -275,6 +283,7 @@ mod tests {
         Stated { name: "-ln(1 - x), high", on: (0.5, 1.0f32.next_down()), f: |x| neg_ln_1m(ISA, x, one() - x), exact: |x| -(-x).ln_1p(), error: LN },
     ];
     const ANGLE: Error = Ulp(1.4);
+    const SHORT: Error = Ulp(3.5);
     const LN: Error = Ulp(2.7);
 
     fn one() -> V {

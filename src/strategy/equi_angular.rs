@@ -12,31 +12,48 @@
 //!
 //! Departure: the angle is measured from `a` for `u` up to 1/2 + [`BIAS`] or 1/2 - `BIAS`, so that more of the variates are
 //! measured from the end nearer to the foot of the perpendicular. From there the way is shorter, and so is its rounding error.
+//!
+//! In fast precision the angle is measured from `a` up to 1/2, polynomials are shorter, and `p_t` takes one division.
 
 use crate::density::{self, Density, Drawn, Pdf, SetUp};
 use crate::geometry::{Angle, BIAS, Extent, Geometry, Point, RayLanes};
 use crate::integrand::{ChannelLanes, MediumLanes};
+use crate::precision::is_exact;
 use crate::simd::math::{angle_of, tan};
 use crate::simd::{Isa, Lanes, Records, none};
 
-pub(crate) struct Kind;
+/// `EXACT` is the precision.
+pub(crate) struct Kind<const EXACT: bool>;
 
-impl density::Kind for Kind {
-    type On<I: Isa> = EquiAngular<I>;
+impl<const EXACT: bool> density::Kind for Kind<EXACT> {
+    type On<I: Isa> = EquiAngular<I, EXACT>;
 }
 
 #[derive(Clone, Copy)]
-pub(crate) struct EquiAngular<I: Isa> {
+pub(crate) struct EquiAngular<I: Isa, const EXACT: bool> {
     /// `Theta` \[rad\].
     subtended: I::V,
-    /// The largest variate of which the angle is measured from `a`.
-    turn: I::V,
 }
 
 /// The widest angle \[rad\] of which the share `0.5 + BIAS` is at most a right angle, so that `tan(delta/2) <= 1`.
 const WIDEST: f32 = core::f32::consts::FRAC_PI_2 / (0.5 + BIAS);
 
-impl<I: Isa> Density<I> for EquiAngular<I> {
+impl<I: Isa, const EXACT: bool> EquiAngular<I, EXACT> {
+    /// Whether the arithmetic is that of `Precision::Exact`.
+    const FULL: bool = is_exact::<I>(EXACT);
+
+    /// The largest variate of which the angle is measured from `a`.
+    #[cfg_attr(optimized, inline(always))]
+    fn turn(&self, isa: I, geometry: Geometry<'_, I>) -> I::V {
+        let half = isa.splat(0.5);
+        if !Self::FULL {
+            return half;
+        }
+        I::V::select(self.subtended.lt(isa.splat(WIDEST)), half + geometry.bias_to_a(isa), half)
+    }
+}
+
+impl<I: Isa, const EXACT: bool> Density<I> for EquiAngular<I, EXACT> {
     const EXTENT: Extent = Extent::Foot;
     type Place = Angle<I>;
     type SetUps = Records<SetUp<I, Self>>;
@@ -49,36 +66,39 @@ impl<I: Isa> Density<I> for EquiAngular<I> {
         _: &MediumLanes<I>,
         _: Option<&ChannelLanes<I>>,
     ) -> (Self, I::Mask) {
-        let half = isa.splat(0.5);
-        let subtended = geometry.subtended(isa);
-        let turn = I::V::select(subtended.lt(isa.splat(WIDEST)), half + geometry.bias_to_a(isa), half);
-        (Self { subtended, turn }, geometry.lit_by_angle(isa, subtended))
+        let subtended = geometry.subtended(isa, Self::FULL);
+        (Self { subtended }, geometry.lit_by_angle(isa, subtended))
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn draw(&self, isa: I, _: Geometry<'_, I>, u: I::V) -> Angle<I> {
+    fn draw(&self, isa: I, geometry: Geometry<'_, I>, u: I::V) -> Angle<I> {
         // (3.5)
-        let from_a = u.le(self.turn);
+        let from_a = u.le(self.turn(isa, geometry));
         let share = I::V::select(from_a, u, isa.splat(1.0) - u);
-        Angle { from_a, tan_half: tan(isa, isa.splat(0.5) * self.subtended * share) }
+        Angle { from_a, tan_half: tan(isa, isa.splat(0.5) * self.subtended * share, Self::FULL) }
     }
 
     #[cfg_attr(optimized, inline(always))]
     fn point(&self, isa: I, geometry: Geometry<'_, I>, angle: &Angle<I>) -> Drawn<I> {
-        let point = geometry.point_at_angle(isa, angle);
+        let point = geometry.point_at_angle(isa, angle, Self::FULL);
         Drawn { point, pdf: self.pdf(isa, geometry, &point), bisected: none(isa) }
     }
 
     #[cfg_attr(optimized, inline(always))]
     fn pdf(&self, isa: I, geometry: Geometry<'_, I>, point: &Point<I>) -> Pdf<I> {
         // (3.3)
-        Pdf::over_angle(isa.splat(1.0), self.subtended, geometry, point)
+        if Self::FULL {
+            return Pdf::over_angle(isa.splat(1.0), self.subtended, geometry, point);
+        }
+        let (h, r_squared) = (geometry.foot.h, geometry.foot.r_squared(point.t_prime));
+        // r^2 Theta is at least about h min(r, l), and h, r and l are at least 1e-18.
+        Pdf { over_t: h / (r_squared * self.subtended), times_r2: h / self.subtended }
     }
 
     #[cfg_attr(optimized, inline(always))]
     fn cdf(&self, isa: I, geometry: Geometry<'_, I>, point: &Point<I>) -> I::V {
         // (3.4)
         let [across, along] = geometry.seen_from(isa, !none(isa), point);
-        angle_of(isa, across, along) / self.subtended
+        angle_of(isa, across, along, Self::FULL) / self.subtended
     }
 }

@@ -458,7 +458,7 @@ impl<I: Isa, const K: usize> Product<I, K> {
     fn find(&self, isa: I, geometry: Geometry<'_, I>, point: &Point<I>) -> Found<I> {
         let c = |x| isa.splat(x);
         let g = geometry;
-        let (x, r) = g.foot.exact_x_and_r(isa, point);
+        let (x, r) = g.exact_x_and_r(isa, point);
         let [(x_a, r_a), (x_b, r_b)] = g.exact_ends(isa, [self.r_a, self.r_b]);
         // Y and Y_b - Y by (5.8)
         let over_a = reciprocal(isa, r_a + r);

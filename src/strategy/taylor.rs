@@ -118,11 +118,11 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
         // The ends in the order of the angle that is expanded.
         let pick = |a: I::V, b: I::V| I::V::select(mirrored, b, a);
         let start_t_prime = pick(g.foot.a, -g.foot.b);
-        let ends = g.ends(isa);
-        let ([n_a, n_b], [s_a, s_b]) = (ends.n, g.antiderivatives(&ends));
+        let (ends, [s_a, s_b]) = g.ends_and_antiderivatives(isa, true);
+        let [n_a, n_b] = ends.n;
         let (n_a, n_b, s_a, s_b) = (pick(n_a, n_b), pick(n_b, n_a), pick(s_a, -s_b), pick(-s_b, s_a));
         let theta_a = angle(isa, start_t_prime, g.foot.h);
-        let subtended = g.subtended(isa);
+        let subtended = g.subtended(isa, true);
         let width = I::V::narrow(theta_c - theta_a).max(c(0.0)).min(subtended);
         let half = width * c(0.5);
         let middle = theta_a + half.widen();
@@ -154,7 +154,7 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
 
         // The second piece (3.6), less than a right angle: it starts beyond the foot of the perpendicular, as `theta_c > 0`.
         let rest = subtended - width;
-        let cosines = (n_c + n_b) * tan(isa, rest.min(c(core::f32::consts::FRAC_PI_2)) * c(0.5));
+        let cosines = (n_c + n_b) * tan(isa, rest.min(c(core::f32::consts::FRAC_PI_2)) * c(0.5), true);
         let mass_2 = p_c * I::V::select(g.cosine.has_normal, cosines, rest);
 
         let lit = g.lit(isa) & g.bright(isa, &ends);
@@ -178,7 +178,7 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
             mass_1,
             mass_2,
             p_c,
-            wanted: lit & g.lit.valid,
+            wanted: lit & g.valid,
             expansion: PhantomData,
         };
         (density, lit)
@@ -232,7 +232,7 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
         let s_end = I::V::select(by_start, self.s_c, self.s_b);
         let by_cosines = tan_half_at_mass(isa, n_end, s_end, cosines);
         // From the start of the interval: the tangent of a sum, with the angle of the first piece.
-        let before = I::V::only(by_start, tan(isa, self.half));
+        let before = I::V::only(by_start, tan(isa, self.half, true));
         let by_cosines = (by_cosines + before) / (c(1.0) - by_cosines * before);
 
         let to_end = self.subtended - delta;
@@ -240,7 +240,7 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
         let uniform = cosines + I::V::only(by_start, width);
         let nearest = I::V::select(first, delta.min(to_end), uniform).max(off).min(self.subtended);
         let right_angle = c(core::f32::consts::FRAC_PI_2);
-        let by_angle = tan(isa, nearest.min(right_angle) * c(0.5));
+        let by_angle = tan(isa, nearest.min(right_angle) * c(0.5), true);
         let tan_half = I::V::select(first | !g.cosine.has_normal, by_angle, by_cosines);
         let from_a = (near_start & !self.mirrored) | (!near_start & self.mirrored);
         let theta = self.theta_a + I::V::select(first, delta, self.subtended).widen();
@@ -249,7 +249,7 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
 
     #[cfg_attr(optimized, inline(always))]
     fn point(&self, isa: I, geometry: Geometry<'_, I>, place: &Place<I>) -> Drawn<I> {
-        let point = geometry.point_at_angle(isa, &place.angle);
+        let point = geometry.point_at_angle(isa, &place.angle, true);
         Drawn { point, pdf: self.at(isa, geometry, &point, place.theta), bisected: place.bisected }
     }
 
@@ -264,15 +264,15 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
     fn cdf(&self, isa: I, geometry: Geometry<'_, I>, point: &Point<I>) -> I::V {
         let (c, g) = (|x| isa.splat(x), geometry);
         let [across, along] = g.seen_from(isa, !self.mirrored, point);
-        let delta = angle_of(isa, across, along);
+        let delta = angle_of(isa, across, along, true);
         let width = self.half + self.half;
         let first = delta.lt(width) | self.subtended.le(width);
         let x = I::V::select(first, delta / self.half - c(1.0), c(1.0));
         let below = (x.mul_add(by_halves(x, x * x, &self.integral), -self.below) / self.scale) * self.mass_1;
 
         let [across, along] = g.seen_from(isa, self.mirrored, point);
-        let rest = angle_of(isa, across, along);
-        let tan_half = tan(isa, rest.min(c(core::f32::consts::FRAC_PI_2)) * c(0.5));
+        let rest = angle_of(isa, across, along, true);
+        let tan_half = tan(isa, rest.min(c(core::f32::consts::FRAC_PI_2)) * c(0.5), true);
         let cosines = (g.cosine(isa, point) + self.n_b) * tan_half;
         let above = self.p_c * I::V::select(g.cosine.has_normal, cosines, rest);
 
