@@ -66,7 +66,7 @@ impl Precision {
     }
 }
 
-/// Whether the arithmetic is that of [`Precision::Exact`], given whether the precision is: it always is without fused multiply-add.
+/// Whether the arithmetic is that of [`Precision::Exact`]: if `exact`, and always without fused multiply-add.
 pub(crate) const fn is_exact<I: Isa>(exact: bool) -> bool {
     exact || !I::FUSED
 }
