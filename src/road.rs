@@ -8,10 +8,12 @@ mod at_distance;
 mod blocks;
 mod choose;
 mod evaluate;
+mod locate;
 mod radiance;
 mod sample;
 #[cfg(feature = "measure")]
 pub(crate) mod stages;
+mod tally;
 
 pub(crate) use at_distance::{Cdf, Pdf};
 pub(crate) use choose::{Choose, Lights};
@@ -22,7 +24,7 @@ pub(crate) use sample::Sample;
 use crate::batch::{Counts, Inputs, Outputs, Pads, Rays, first_values};
 use crate::density::Kind;
 use crate::scene::{Emitter, Medium, Ray};
-use crate::simd::{Backend, Isa, Kernel, MOST_LANES, Machine};
+use crate::simd::{Backend, GROUPS, Isa, Kernel, MOST_LANES, Machine};
 use crate::strategy::product::knots;
 use crate::strategy::{equi_angular, point_normal, taylor_phase, taylor_transmittance, transmittance};
 use crate::threads::{Split, Threads};
@@ -33,13 +35,13 @@ use core::slice::from_ref;
 
 /// The number of values of a chunk where threads share a batch: less takes about as long as to hand it to another thread.
 const CHUNK: usize = 4096;
-/// The number of values of a chunk where one thread has the batch. Its limit is that a tally counts in f32.
+/// The number of values of a chunk where one thread has the batch.
 const LONG_CHUNK: usize = 1 << 16;
 /// A ray with at least this number of values is a chunk of its own. Its values fill the lanes, and it costs the set-up of a whole
 /// lane group: with 32 lanes, one set-up for 32 samples.
 const MANY: usize = 1024;
-// A tally counts the values of a chunk in f32.
-const _: () = assert!(LONG_CHUNK + MOST_LANES * MANY < 1 << f32::MANTISSA_DIGITS);
+/// The number of lane groups by which rays, variates, `t` and `pdf` are prefetched before they are read or written.
+const AHEAD: usize = 2 * GROUPS;
 
 /// The output columns of a task.
 pub(crate) type Out<'a, T> = <<T as Task>::Out as Outputs>::At<'a>;

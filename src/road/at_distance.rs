@@ -1,6 +1,7 @@
 //! The pdf or the CDF of a density at given distances.
 
-use super::blocks::{Block, SetUps, Tally, Wanted, for_each_block, for_each_run, set_up};
+use super::blocks::{Block, SetUps, Wanted, for_each_block, for_each_run, set_up};
+use super::tally::Tally;
 use super::{Method, OfDensity, Task, by_strategy};
 use crate::Precision;
 use crate::batch::{Column, Counts, Inputs, OfRuns, Turn};

@@ -13,8 +13,9 @@
 //! The slots keep the choice increasing with `u`. A reservoir would need none, but it takes new bits of the variate at every
 //! emitter, which f32 does not have, and its choice does not increase with `u`.
 
-use super::blocks::{Tally, for_each_block, groups_at_once};
+use super::blocks::{for_each_block, groups_at_once};
 use super::radiance::{Integrated, Quadrature, for_each_radiance, of_integral};
+use super::tally::Tally;
 use super::{Out, Task};
 use crate::batch::{Choices, Counts, Emitters, Inputs, MOST_RAYS, Rows};
 use crate::integral::rule::Rule;

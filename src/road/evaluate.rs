@@ -1,6 +1,7 @@
 //! The integrand at given distances, which is the same for all densities.
 
-use super::blocks::{Block, Tally, Wanted, for_each_block, for_each_run};
+use super::blocks::{Block, Wanted, for_each_block, for_each_run};
+use super::tally::Tally;
 use super::{Method, Out, Task};
 use crate::Precision;
 use crate::batch::{Columns, Counts, Inputs, OfRuns, Turn};

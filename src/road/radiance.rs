@@ -1,6 +1,7 @@
 //! The integral of the integrand along each ray.
 
-use super::blocks::{Block, Tally, Wanted, for_each_block};
+use super::blocks::{Block, Wanted, for_each_block};
+use super::tally::Tally;
 use super::{Out, Task};
 use crate::batch::{Columns, Counts, Inputs, MediumGroups, MediumRows};
 use crate::geometry::Extent;

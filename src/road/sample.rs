@@ -1,7 +1,8 @@
 //! Samples a distance for every variate.
 
-use super::blocks::{AHEAD, Block, ForSetUp, SetUps, Tally, Wanted, for_each_block, for_each_run, set_up};
-use super::{Method, OfDensity, Out, Task, by_strategy};
+use super::blocks::{Block, ForSetUp, SetUps, Wanted, for_each_block, for_each_run, set_up};
+use super::tally::Tally;
+use super::{AHEAD, Method, OfDensity, Out, Task, by_strategy};
 use crate::Precision;
 use crate::batch::{Counts, Inputs, OfRuns, OfSamples, Samples, Turn};
 use crate::density::{Density, Kind, SetUp};
