@@ -106,6 +106,11 @@ impl Scene {
         self.mu_s > 0.0
     }
 
+    #[cfg(test)]
+    pub(super) fn is_spot(&self) -> bool {
+        matches!(self.emission, Emission::Spot(_))
+    }
+
     fn normal(&self) -> Option<Normal> {
         if let Emission::Normal(normal) = self.emission { Some(normal) } else { None }
     }

@@ -149,11 +149,13 @@ mod tests {
             }
         }
 
+        /// The penumbra of a spot may be narrow, and lie between two knots.
         #[test]
         fn more_knots_leave_less(scene in scene()) {
             if let Some(of_five) = scene.relative_variance(Strategy::Product5) {
                 let of_seventeen = scene.relative_variance(Strategy::Product17).unwrap();
-                prop_assert!(of_seventeen < 0.02 && of_five < 0.5, "{of_five} and {of_seventeen}");
+                let most = if scene.is_spot() { 0.05 } else { 0.005 };
+                prop_assert!(of_seventeen < most && of_five < 0.5, "{of_five} and {of_seventeen}");
             }
         }
     }
