@@ -13,6 +13,8 @@ pub(crate) trait Kind {
 pub(crate) trait Density<I: Isa>: Copy {
     /// The part of the geometry that samples and their pdf need.
     const EXTENT: Extent;
+    /// The part of the geometry that the pdf and the CDF at a given distance need.
+    const EXTENT_AT_DISTANCE: Extent = Self::EXTENT;
     /// The place of a variate, in the terms of the density; [`point`](Self::point) makes a point of the ray of it.
     type Place: Copy;
     /// Storage for the set-ups of a block. Its capacity limits the lane groups of a block where set-ups are large.

@@ -19,8 +19,8 @@
 //!
 //! Departures from the plain formulas, and why:
 //!
-//! 1. `t_a`, `t_b`, `t_h`, `h^2` and a point's `t'` are an f32 and the remainder of its rounding; `t` is computed from the nearest of
-//!    `t_a`, `t_b` and `t_h`.
+//! 1. `t_a`, `t_b`, `t_h` and a point's `t'` are an f32 and the remainder of its rounding, for paths `h^2` too; `t` is computed from
+//!    the nearest of `t_a`, `t_b` and `t_h`.
 //! 2. `m` is computed from the end where it is smaller (2.5): both terms are positive, and it is exactly 0 where the interval
 //!    ends at `m` = 0.
 //! 3. Angles are those between two points of the ray (2.6), never differences of angles, which would lose all digits of a short
@@ -34,14 +34,15 @@ mod points;
 mod single;
 
 pub(crate) use cone::{Cone, Ramp, SpotLanes, locate as in_cone};
-pub(crate) use single::{Clipped, FoundFoot, clip, find_foot};
+pub(crate) use double::refine;
+pub(crate) use single::locate as in_f32;
 
 use crate::scene::{FARTHEST, UNIT_TOLERANCE};
 use crate::simd::math::{angle_of, reciprocal};
 use crate::simd::{Double, Isa, Lanes, Number, none};
 
 /// The part of the geometry that is computed: each variant includes those before it.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd)]
 pub(crate) enum Extent {
     /// Whether anything is lit.
     Lit,
@@ -49,6 +50,9 @@ pub(crate) enum Extent {
     Foot,
     /// The emitter's cosine.
     Cosine,
+    /// In exact precision the digits of the foot that f32 does not hold: a transmittance multiplies their share of the path by the
+    /// optical depth.
+    Path,
 }
 
 /// The rays of a lane group.
@@ -114,7 +118,7 @@ pub(crate) struct Lit<I: Isa> {
     /// The distances of its ends along the ray \[m\], rounded: `t_a` and `t_b`.
     pub(crate) a: I::V,
     pub(crate) b: I::V,
-    /// `t_b - t_a` \[m\]; 0 where nothing is lit.
+    /// `t_b - t_a` \[m\]; 0 where nothing is lit, or NaN, which no number is less than.
     pub(crate) length: I::V,
 }
 
@@ -125,15 +129,13 @@ pub(crate) struct Rests<I: Isa> {
     /// Of `t_a` and `t_b` \[m\]: 0 where the ray itself ends.
     pub(crate) a: I::V,
     pub(crate) b: I::V,
-    /// Of `h^2` \[m^2\].
-    pub(crate) h_squared: I::V,
 }
 
 impl<I: Isa> Rests<I> {
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn none(isa: I) -> Self {
         let zero = isa.splat(0.0);
-        Self { a: zero, b: zero, h_squared: zero }
+        Self { a: zero, b: zero }
     }
 }
 
@@ -176,12 +178,29 @@ pub(crate) struct Foot<I: Isa> {
     /// Distance from the emitter \[m\], and its square.
     pub(crate) h: I::V,
     pub(crate) h_squared: I::V,
-    /// Distance along the ray \[m\], approximate, and the difference to the exact one.
+    /// Distance along the ray \[m\], rounded, and a correction: their sum has an error of a few 2^-24 of `h`.
     t_h: I::V,
     t_h_low: I::V,
     /// `t' = t - t_h` at the ends of the lit interval \[m\].
     pub(crate) a: I::V,
     pub(crate) b: I::V,
+}
+
+/// What a [`Foot`] lacks: the exact values are its own plus these.
+#[derive(Clone, Copy)]
+pub(crate) struct Refined<I: Isa> {
+    /// Of `t_h` \[m\] and of `h^2` \[m^2\].
+    t_h: I::V,
+    h_squared: I::V,
+}
+
+impl<I: Isa> Refined<I> {
+    /// A placeholder where f32 is enough.
+    #[cfg_attr(optimized, inline(always))]
+    pub(crate) fn none(isa: I) -> Self {
+        let zero = isa.splat(0.0);
+        Self { t_h: zero, h_squared: zero }
+    }
 }
 
 /// The geometry of a lane group.
@@ -190,6 +209,7 @@ pub(crate) struct Geometry<'g, I: Isa> {
     pub(crate) lit: &'g Lit<I>,
     pub(crate) cosine: &'g Cosine<I>,
     pub(crate) foot: &'g Foot<I>,
+    pub(crate) refined: &'g Refined<I>,
     /// `alpha h`, which is `m` at the foot \[m\] (2.4).
     pub(crate) alpha_h: I::V,
     pub(crate) rests: &'g Rests<I>,
@@ -250,6 +270,13 @@ pub(crate) fn in_f64<I: Isa>(isa: I, ray: &RayLanes<I>, emitter: &EmitterLanes<I
 }
 
 impl<I: Isa> Located<I> {
+    /// Of a lit interval alone.
+    #[cfg_attr(optimized, inline(always))]
+    fn of(isa: I, lit: Lit<I>, valid: I::Mask) -> Self {
+        let (rests, cosine, foot) = (Rests::none(isa), Cosine::none(isa), Foot::none(isa));
+        Self { lit, rests, cosine, foot, alpha_h: isa.splat(0.0), valid }
+    }
+
     /// This in the lanes of `hard`, `other` in the others.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn or(&self, hard: I::Mask, other: Geometry<'_, I>) -> Self {
@@ -262,11 +289,7 @@ impl<I: Isa> Located<I> {
                 b: pick(lit.b, other.lit.b),
                 length: pick(lit.length, other.lit.length),
             },
-            rests: Rests {
-                a: pick(rests.a, other.rests.a),
-                b: pick(rests.b, other.rests.b),
-                h_squared: pick(rests.h_squared, other.rests.h_squared),
-            },
+            rests: Rests { a: pick(rests.a, other.rests.a), b: pick(rests.b, other.rests.b) },
             cosine: Cosine {
                 m_least: pick(cosine.m_least, other.cosine.m_least),
                 beta: pick(cosine.beta, other.cosine.beta),
@@ -315,28 +338,19 @@ impl<I: Isa> Geometry<'_, I> {
     /// The ends as seen from the emitter (2.3), (2.4).
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn ends(&self, isa: I) -> Ends<I> {
-        let (ends, _) = self.ends_and_antiderivatives(isa, true);
+        let (ends, _) = self.ends_and_antiderivatives(isa);
         ends
     }
 
-    /// The same, with the antiderivative `alpha sin theta - beta cos theta` of `N` over `theta` there: `M` of section 3.3. If not
-    /// `exact`, quotients by `r` are products with one reciprocal.
+    /// The same, with the antiderivative `alpha sin theta - beta cos theta` of `N` over `theta` there: `M` of section 3.3.
     #[cfg_attr(optimized, inline(always))]
-    pub(crate) fn ends_and_antiderivatives(&self, isa: I, exact: bool) -> (Ends<I>, [I::V; 2]) {
-        let one = isa.splat(1.0);
-        let Foot { a, b, .. } = *self.foot;
-        let [r_a, r_b] = [self.foot.r(a), self.foot.r(b)];
+    pub(crate) fn ends_and_antiderivatives(&self, isa: I) -> (Ends<I>, [I::V; 2]) {
+        let (one, has_normal) = (isa.splat(1.0), self.cosine.has_normal);
+        let [r_a, r_b] = [self.foot.r(self.foot.a), self.foot.r(self.foot.b)];
         let [m_a, m_b] = self.m_at_ends(isa);
-        let [s_a, s_b] = [self.antiderivative_r(a), self.antiderivative_r(b)];
-        let (n, s) = if exact {
-            ([m_a / r_a, m_b / r_b], [s_a / r_a, s_b / r_b])
-        } else {
-            let both = one / (r_a * r_b);
-            let (inv_r_a, inv_r_b) = (r_b * both, r_a * both);
-            ([m_a * inv_r_a, m_b * inv_r_b], [s_a * inv_r_a, s_b * inv_r_b])
-        };
-        let has_normal = self.cosine.has_normal;
-        (Ends { r: [r_a, r_b], n: [I::V::select(has_normal, n[0], one), I::V::select(has_normal, n[1], one)] }, s)
+        let n = [I::V::select(has_normal, m_a / r_a, one), I::V::select(has_normal, m_b / r_b, one)];
+        let [s_a, s_b] = [self.antiderivative_r(self.foot.a), self.antiderivative_r(self.foot.b)];
+        (Ends { r: [r_a, r_b], n }, [s_a / r_a, s_b / r_b])
     }
 
     /// Which lanes have more than 1e-25 of the light of an emitter faced squarely: f32 cannot resolve `N` below that.
@@ -430,16 +444,22 @@ impl<I: Isa> Geometry<'_, I> {
         [self.foot.h * way, end.mul_add(point.t_prime, self.foot.h_squared)]
     }
 
+    /// `t_h` \[m\].
+    #[cfg_attr(optimized, inline(always))]
+    fn exact_t_h(&self) -> I::Double {
+        self.foot.t_h.widen() + (self.foot.t_h_low.widen() + self.refined.t_h.widen())
+    }
+
     /// `h^2` \[m^2\].
     #[cfg_attr(optimized, inline(always))]
     fn exact_h_squared(&self) -> I::Double {
-        self.foot.h_squared.widen() + self.rests.h_squared.widen()
+        self.foot.h_squared.widen() + self.refined.h_squared.widen()
     }
 
     /// (1.13): the length of the path from `t_min` over the point to the emitter \[m\].
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn path(&self, isa: I, t_min: I::V, point: &Point<I>) -> I::Double {
-        (point.exact_t_prime() - (t_min.widen() - self.foot.exact_t_h())) + self.exact_r(isa, point)
+        (point.exact_t_prime() - (t_min.widen() - self.exact_t_h())) + self.exact_r(isa, point)
     }
 
     /// (5.7): `X = t' + r`, and `r` \[m\], in f64.
@@ -458,7 +478,7 @@ impl<I: Isa> Geometry<'_, I> {
     fn exact_r(&self, isa: I, point: &Point<I>) -> I::Double {
         let (t_prime, r) = (point.t_prime.widen(), point.r.widen());
         let high = I::V::narrow((-r).mul_add(r, t_prime.mul_add(t_prime, self.foot.h_squared.widen())));
-        let low = (point.t_prime + point.t_prime).mul_add(point.t_prime_low, self.rests.h_squared);
+        let low = (point.t_prime + point.t_prime).mul_add(point.t_prime_low, self.refined.h_squared);
         let step = (high + low) * isa.splat(0.5) / point.r;
         r + step.widen()
     }
@@ -491,12 +511,6 @@ impl<I: Isa> Foot<I> {
         let low = left - self.t_h_low;
         let t_prime = difference + low;
         [t_prime, low - (t_prime - difference)]
-    }
-
-    /// `t_h` \[m\].
-    #[cfg_attr(optimized, inline(always))]
-    fn exact_t_h(&self) -> I::Double {
-        self.t_h.widen() + self.t_h_low.widen()
     }
 
     /// (1.13) in f32. No term is larger than the path, so that the error is a few roundings of the path.

@@ -33,10 +33,11 @@ use std::str::FromStr;
 /// for light that is misjudged. Weights also have the error of the integrand; in `Fast` the optical depth adds 3e-7 of itself.
 ///
 /// # Arithmetic
-/// Both precisions compute the geometry of a ray in f64 where f32 is not enough for them: `Fast` where the ray's line passes the
-/// emitter at less than 2^-14 of its distance, and for unusual directions, normals and coordinates; `Exact` also where an end of
-/// the ray is next to the emitter's plane. Both compute spots in f64. `Fast` also has shorter polynomials and fewer divisions.
-/// Without fused multiply-add both compute all geometry in f64, and are the same.
+/// Both precisions compute the geometry of a ray in f32, `Exact` with the remainders of roundings and the emitter's plane in f64.
+/// Where that is not enough for them, the ray is computed again in f64: where its line passes the emitter at less than 2^-14 of
+/// its distance, for unusual directions, normals and coordinates, and in `Exact` also where an end of the ray is next to the
+/// emitter's plane. Both compute spots in f64. The path of a transmittance is in f64 in `Exact`, in f32 in `Fast`; `Fast` also has
+/// shorter polynomials. Without fused multiply-add both compute all geometry in f64, and are the same.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Precision {

@@ -234,7 +234,7 @@ impl Sampler {
     ///
     /// | precision | absolute error at the given `t` | where | test |
     /// |---|---|---|---|
-    /// | [`Precision::Exact`] | 2^-20 at most, beyond the change of the CDF when distances change by 2^-44 of themselves (matters at optical depths above 1e7; 2^-39 for a direction whose length is 1e-5 off) | all families | `tests/hard_cases.rs`, `tests/cdf.rs` |
+    /// | [`Precision::Exact`] | 2^-20 at most, beyond the change of the CDF when distances change by 2^-44 of themselves (matters at optical depths above 1e7; 2^-41 for a direction whose length is 1e-6 off) | all families | `tests/hard_cases.rs`, `tests/cdf.rs` |
     /// | [`Precision::Fast`] | 8e-6 for 99.9 % of rays | [ordinary scenes](Precision), `variate`, `short-intervals`, `spot` | `tests/hard_cases.rs` |
     /// | [`Precision::Fast`] | 2e-3 for 99.9 % of rays | `near-emitter`, `peaks`, `colour` | `tests/hard_cases.rs` |
     /// | [`Precision::Fast`] | 1e-3 for 99.9 % of rays | `infinite-rays` | `tests/hard_cases.rs` |

@@ -221,8 +221,8 @@ pub(crate) fn locate<I: Isa>(isa: I, ray: &RayLanes<I>, spot: &SpotLanes<I>) -> 
     let (m_a, m_b) = (I::V::narrow(beta.mul_add(start, alpha_h)), I::V::narrow(beta.mul_add(end, alpha_h)));
     let m_least = I::V::select(zero.le(beta_rounded), m_a, m_b).max(zero);
     let cosine = Cosine { m_least, beta: beta_rounded, has_normal: no };
-    let (foot, h_squared) = line.foot([I::V::narrow(start), I::V::narrow(end)]);
-    let rests = Rests { a: I::V::only(clip_a, rest_a), b: I::V::only(clip_b, rest_b), h_squared };
+    let foot = line.foot([I::V::narrow(start), I::V::narrow(end)]);
+    let rests = Rests { a: I::V::only(clip_a, rest_a), b: I::V::only(clip_b, rest_b) };
     let fall = cos_inner - cos_outer;
     let (hard, inv_fall) = (fall.le(zero), c(1.0) / fall.max(c(LEAST_FALL)));
     let located = Located { lit, rests, cosine, foot, alpha_h: I::V::narrow(alpha_h), valid };

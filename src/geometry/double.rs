@@ -18,7 +18,7 @@
 //! 3. The length of a clipped interval is `max(m_a, m_b)/|beta|`, not a difference of distances.
 //! 4. A ray within 1e-30 rad of the emitter's plane is not clipped: if one end is dark, all of it is.
 
-use super::{Cosine, EmitterLanes, Foot, Lit, Located, RayLanes, Rests, TOLERANCE, dot, largest, widen};
+use super::{Cosine, EmitterLanes, Foot, Lit, Located, RayLanes, Refined, Rests, TOLERANCE, dot, largest, widen};
 use crate::scene::FARTHEST;
 use crate::simd::math::reciprocal_near;
 use crate::simd::{Double, Isa, Lanes, Number};
@@ -81,14 +81,13 @@ impl<I: Isa> Line<I> {
         Self { d, unit, e, t_h, foot, h_squared, t_max, t_prime, valid, size_squared, least_h }
     }
 
-    /// The foot of the perpendicular, with the given `t'` at the ends of the lit interval; and the remainder of `h^2`.
+    /// The foot of the perpendicular, with the given `t'` at the ends of the lit interval.
     #[cfg_attr(optimized, inline(always))]
-    pub(super) fn foot(&self, [a, b]: [I::V; 2]) -> (Foot<I>, I::V) {
+    pub(super) fn foot(&self, [a, b]: [I::V; 2]) -> Foot<I> {
         let h_squared = (self.least_h * self.least_h).max(self.size_squared);
         let t_h = I::V::narrow(self.t_h);
         let t_h_low = I::V::narrow(self.t_h - t_h.widen());
-        let rest = I::V::narrow(self.h_squared - h_squared.widen());
-        (Foot { h: h_squared.sqrt(), h_squared, t_h, t_h_low, a, b }, rest)
+        Foot { h: h_squared.sqrt(), h_squared, t_h, t_h_low, a, b }
     }
 
     /// The distance of the point at `t'`, clamped to the ray, and the remainder of its rounding.
@@ -112,6 +111,16 @@ pub(super) fn one_over_length<I: Isa>(isa: I, q: I::Double) -> I::Double {
     q.mul_add(isa.splat_double(0.273_437_5), isa.splat_double(-0.3125))
         .mul_add(q, isa.splat_double(0.375))
         .mul_add(q * q, q.mul_add(isa.splat_double(-0.5), isa.splat_double(1.0)))
+}
+
+/// What the foot of the perpendicular lacks, as computed in f32 or here.
+#[cfg_attr(optimized, inline(always))]
+pub(crate) fn refine<I: Isa>(isa: I, ray: &RayLanes<I>, emitter: &EmitterLanes<I>, foot: &Foot<I>) -> Refined<I> {
+    let line = Line::new(isa, ray, emitter.position);
+    Refined {
+        t_h: I::V::narrow((line.t_h - foot.t_h.widen()) - foot.t_h_low.widen()),
+        h_squared: I::V::narrow(line.h_squared - foot.h_squared.widen()),
+    }
 }
 
 /// The part of the ray on the side of the emitter's normal.
@@ -152,12 +161,11 @@ pub(super) fn locate<I: Isa>(isa: I, ray: &RayLanes<I>, emitter: &EmitterLanes<I
     let lit = Lit { a: I::V::select(clip_a, t_n, ray.t_min), b: I::V::select(clip_b, t_n, t_max), length };
     let cosine = Cosine { m_least: m_a.min(m_b).max(c(0.0)), beta, has_normal };
     let ends = [I::V::select(clip_a, tn, ta), I::V::select(clip_b, tn, tb)];
-    let (foot, h_squared) = line.foot(ends);
     Located {
         lit,
-        rests: Rests { a: I::V::only(clip_a, rest_n), b: I::V::only(clip_b, rest_n), h_squared },
+        rests: Rests { a: I::V::only(clip_a, rest_n), b: I::V::only(clip_b, rest_n) },
         cosine,
-        foot,
+        foot: line.foot(ends),
         alpha_h: I::V::narrow(alpha_h),
         valid: emitter.valid & line.valid,
     }

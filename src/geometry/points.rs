@@ -86,6 +86,7 @@ impl<I: Isa> Geometry<'_, I> {
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn point_at_distance(&self, isa: I, t: I::V) -> Point<I> {
         let [t_prime, t_prime_low] = self.foot.t_prime(t);
+        let t_prime_low = t_prime_low - self.refined.t_h;
         let r = self.foot.r(t_prime);
         let m = self.m_inside(isa, (t - self.lit.a) - self.rests.a, (self.lit.b - t) + self.rests.b, r);
         Point { t, t_prime, t_prime_low, r, m }
@@ -95,7 +96,7 @@ impl<I: Isa> Geometry<'_, I> {
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn point_beyond(&self, isa: I, t_min: I::V, s: I::V, t_max: I::V) -> Point<I> {
         let t_64 = t_min.widen() + s.widen();
-        let exact = t_64 - self.foot.exact_t_h();
+        let exact = t_64 - self.exact_t_h();
         let t_prime = I::V::narrow(exact);
         let t_prime_low = I::V::narrow(exact - t_prime.widen());
         let from_a = I::V::narrow((t_64 - self.lit.a.widen()) - self.rests.a.widen());
@@ -121,7 +122,7 @@ impl<I: Isa> Geometry<'_, I> {
 
     #[cfg_attr(optimized, inline(always))]
     fn exact_end(&self, isa: I, t: I::V, rest: I::V, r: I::V) -> (I::Double, I::Double) {
-        let exact = (t.widen() + rest.widen()) - self.foot.exact_t_h();
+        let exact = (t.widen() + rest.widen()) - self.exact_t_h();
         let t_prime = I::V::narrow(exact);
         let t_prime_low = I::V::narrow(exact - t_prime.widen());
         self.exact_x_and_r(isa, &Point { t, t_prime, t_prime_low, r, m: isa.splat(0.0) })

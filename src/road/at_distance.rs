@@ -51,7 +51,7 @@ impl<Q: Question> OfDensity for Q {
     fn groups<I: Isa, D: Kind>(isa: I, precision: Precision, inputs: &Inputs<'_>, mut out: &mut [f32]) -> Counts {
         let mut tally = Tally::new::<I>(inputs);
         let (mut set_ups, mut pad) = (SetUps::<I, D>::new(), None);
-        let wanted = Wanted { precision, extent: D::On::<I>::EXTENT, records: SetUps::<I, D>::SIZE };
+        let wanted = Wanted { precision, extent: D::On::<I>::EXTENT_AT_DISTANCE, records: SetUps::<I, D>::SIZE };
         for_each_block(isa, inputs, wanted, |block| {
             let set_ups = set_up::<I, D, D::On<I>>(isa, block, &mut set_ups);
             for_each_run(block, |run| {

@@ -2,13 +2,13 @@
 //!
 //! A pass reads the records of the pass before and writes its own; they stay in the nearest caches. The passes are
 //!
-//! 1. geometry, the part that is needed: the lit interval, then the foot of the perpendicular (`Fast` has both in one pass), hard
-//!    lanes in f64, and spots in f64;
+//! 1. geometry, the part that is needed: the lit interval and the foot of the perpendicular, hard lanes in f64, spots in f64, and
+//!    what the foot lacks for a path in f64;
 //! 2. set-up, inversion and output of a density, a pass each: the shorter a pass, the more groups are in flight at a time. The Taylor
 //!    densities, whose set-ups do not fit the nearest cache, take one pass if each ray has one variate;
 //! 3. weights, the same for all densities.
 
-use super::locate::{Geometries, Places, fill_placeholders, in_cones, locate};
+use super::locate::{Geometries, Places, fill_placeholders, in_cones, locate, refine_feet};
 use crate::Precision;
 use crate::batch::{
     ChannelGroups, ConePlace, EmitterPlace, Inputs, MOST_RAYS, MediaPlace, MediaRows, MediumGroups, RayGroups, Run,
@@ -102,6 +102,9 @@ pub(super) fn for_each_block<I: Isa>(
         locate(isa, inputs, emitters, groups.clone(), &mut places);
         if let Some(cones) = cones {
             in_cones(isa, inputs, emitters, cones, groups.start, &mut places, &mut located_cones);
+        }
+        if wanted.extent == Extent::Path && wanted.precision.is_exact::<I>() {
+            refine_feet(isa, inputs, emitters, groups.start, &mut places);
         }
         let geometries = places.geometries(located_cones.written());
         for part in (0..groups.len()).step_by(wanted.records) {

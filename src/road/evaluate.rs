@@ -34,7 +34,7 @@ impl Kernel for OnGroups<'_> {
     fn run<I: Isa>(self, isa: I) -> Counts {
         let Self { precision, inputs, mut out } = self;
         let (mut tally, mut pad) = (Tally::new::<I>(inputs), None);
-        for_each_block(isa, inputs, Wanted { precision, extent: Extent::Cosine, records: GROUPS }, |block| {
+        for_each_block(isa, inputs, Wanted { precision, extent: Extent::Path, records: GROUPS }, |block| {
             for_each_run(block, |run| {
                 let t = run.values(inputs.given, &mut pad);
                 Columns::of_run(&mut out, run, |out| integrands(isa, block, run.turns, t, out, &mut tally));

@@ -5,7 +5,7 @@ use super::AHEAD;
 use crate::Precision;
 use crate::batch::{ConeRows, EmitterRows, Inputs};
 use crate::geometry::{
-    Clipped, Cone, Cosine, Extent, Foot, FoundFoot, Geometry, Lit, Located, Rests, clip, find_foot, in_cone, in_f64,
+    Cone, Cosine, Extent, Foot, Geometry, Lit, Located, Refined, Rests, in_cone, in_f32, in_f64, refine,
 };
 use crate::simd::{Isa, Lanes, Records, Room, none};
 use core::ops::Range;
@@ -17,6 +17,7 @@ pub(super) struct Geometries<'b, I: Isa> {
     rests: &'b [Rests<I>],
     cosines: &'b [Cosine<I>],
     feet: &'b [Foot<I>],
+    refined: &'b [Refined<I>],
     alphas: &'b [I::V],
     valid: &'b [I::Mask],
     /// Empty if there are no spots.
@@ -32,6 +33,7 @@ impl<I: Isa> Geometries<'_, I> {
             rests: &self.rests[record],
             cosine: &self.cosines[record],
             foot: &self.feet[record],
+            refined: &self.refined[record],
             alpha_h: self.alphas[record],
             valid: self.valid[record],
             cone: self.cones.get(record),
@@ -48,6 +50,7 @@ impl<'b, I: Isa> Geometries<'b, I> {
             rests: &self.rests[range.clone()],
             cosines: &self.cosines[range.clone()],
             feet: &self.feet[range.clone()],
+            refined: &self.refined[range.clone()],
             alphas: &self.alphas[range.clone()],
             valid: &self.valid[range.clone()],
             cones: self.cones.get(range).unwrap_or_default(),
@@ -61,10 +64,9 @@ pub(super) struct Places<I: Isa> {
     rests: Records<Rests<I>>,
     /// Whether lanes in f64 may have left rests that differ from 0.
     has_rests: bool,
-    /// `|d| - 1`.
-    excesses: Records<I::V>,
     cosines: Records<Cosine<I>>,
     feet: Records<Foot<I>>,
+    refined: Records<Refined<I>>,
     alphas: Records<I::V>,
     valid: Records<I::Mask>,
 }
@@ -76,9 +78,9 @@ impl<I: Isa> Places<I> {
             lits: Records::new(),
             rests: Records::new(),
             has_rests: false,
-            excesses: Records::new(),
             cosines: Records::new(),
             feet: Records::new(),
+            refined: Records::new(),
             alphas: Records::new(),
             valid: Records::new(),
         }
@@ -108,6 +110,7 @@ impl<I: Isa> Places<I> {
             rests: self.rests.written(),
             cosines: self.cosines.written(),
             feet: self.feet.written(),
+            refined: self.refined.written(),
             alphas: self.alphas.written(),
             valid: self.valid.written(),
             cones,
@@ -136,7 +139,9 @@ pub(super) fn fill_placeholders<I: Isa>(isa: I, extent: Extent, most: usize, pla
                 let none = Foot::none(isa);
                 places.feet.fill(most, |_| none);
             }
-            if extent != Extent::Cosine {
+            let none = Refined::none(isa);
+            places.refined.fill(most, |_| none);
+            if extent < Extent::Cosine {
                 let (none, zero) = (Cosine::none(isa), isa.splat(0.0));
                 places.cosines.fill(most, |_| none);
                 places.alphas.fill(most, |_| zero);
@@ -155,17 +160,17 @@ pub(super) fn locate<I: Isa>(extent: Extent, precision: Precision, each: bool) -
         // The f32 geometry needs the remainder of a product, which only a fused multiply-add gives.
         (Extent::Lit, _) if !I::FUSED => in_double::<I, false, false>,
         (Extent::Foot, _) if !I::FUSED => in_double::<I, true, false>,
-        (Extent::Cosine, _) if !I::FUSED => in_double::<I, true, true>,
+        (Extent::Cosine | Extent::Path, _) if !I::FUSED => in_double::<I, true, true>,
         (Extent::Lit, _) if each => in_single::<I, true, false, false, true>,
         (Extent::Lit, _) => in_single::<I, true, false, false, false>,
         (Extent::Foot, Precision::Fast) if each => in_single::<I, false, true, false, true>,
         (Extent::Foot, Precision::Fast) => in_single::<I, false, true, false, false>,
         (Extent::Foot, Precision::Exact) if each => in_single::<I, true, true, false, true>,
         (Extent::Foot, Precision::Exact) => in_single::<I, true, true, false, false>,
-        (Extent::Cosine, Precision::Fast) if each => in_single::<I, false, true, true, true>,
-        (Extent::Cosine, Precision::Fast) => in_single::<I, false, true, true, false>,
-        (Extent::Cosine, Precision::Exact) if each => in_single::<I, true, true, true, true>,
-        (Extent::Cosine, Precision::Exact) => in_single::<I, true, true, true, false>,
+        (Extent::Cosine | Extent::Path, Precision::Fast) if each => in_single::<I, false, true, true, true>,
+        (Extent::Cosine | Extent::Path, Precision::Fast) => in_single::<I, false, true, true, false>,
+        (Extent::Cosine | Extent::Path, Precision::Exact) if each => in_single::<I, true, true, true, true>,
+        (Extent::Cosine | Extent::Path, Precision::Exact) => in_single::<I, true, true, true, false>,
     }
 }
 
@@ -182,14 +187,13 @@ fn in_single<I: Isa, const EXACT: bool, const FOOT: bool, const COSINE: bool, co
         clear_rests(isa, groups.len(), places);
     }
     // Whether all lanes are easy, and whether any is.
-    let [mut every, any] = isa.vectorize::<Foot<I>, _>(
+    let [every, any] = isa.vectorize::<Foot<I>, _>(
         #[cfg_attr(optimized, inline(always))]
         || {
             let rays = inputs.ray_groups::<I>();
             let emitters = emitters.groups(isa);
             let mut emitter = emitters.emitters(isa, 0);
-            let (mut lits, mut rests, mut excesses) =
-                (places.lits.start(), places.rests.start(), places.excesses.start());
+            let (mut lits, mut rests) = (places.lits.start(), places.rests.start());
             let (mut cosines, mut valid) = (places.cosines.start(), places.valid.start());
             let (mut every, mut any) = (!none(isa), none(isa));
             let (mut feet, mut alphas) = (places.feet.start(), places.alphas.start());
@@ -200,107 +204,42 @@ fn in_single<I: Isa, const EXACT: bool, const FOOT: bool, const COSINE: bool, co
                 if DIFFER {
                     emitter = emitters.emitters(isa, group - groups.start);
                 }
-                let ray = rays.lanes(isa, group);
-                let mut clipped = clip::<I, EXACT, FOOT, COSINE>(isa, &ray, &emitter);
-                if FOOT && !EXACT {
-                    let FoundFoot { foot, alpha_h, easy, .. } =
-                        find_foot::<I, EXACT, COSINE>(isa, &ray, &emitter, &clipped);
-                    clipped.easy = easy;
-                    feet.push(foot);
-                    if COSINE {
-                        alphas.push(alpha_h);
-                    }
-                }
-                (every, any) = (every & clipped.easy, any | clipped.easy);
-                lits.push(clipped.lit);
+                let located = in_f32::<I, EXACT, FOOT, COSINE>(isa, &rays.lanes(isa, group), &emitter);
+                (every, any) = (every & located.valid, any | located.valid);
+                lits.push(located.lit);
+                valid.push(located.valid);
                 if FOOT && EXACT {
-                    rests.push(clipped.rests);
-                    excesses.push(clipped.excess);
+                    rests.push(located.rests);
+                }
+                if FOOT {
+                    feet.push(located.foot);
                 }
                 if COSINE {
-                    cosines.push(clipped.cosine);
+                    cosines.push(located.cosine);
+                    alphas.push(located.alpha_h);
                 }
-                valid.push(clipped.easy);
             }
             lits.done();
+            valid.done();
             if FOOT && EXACT {
                 rests.done();
-                excesses.done();
-            } else if FOOT {
+            }
+            if FOOT {
                 feet.done();
-                if COSINE {
-                    alphas.done();
-                }
             }
             if COSINE {
                 cosines.done();
+                alphas.done();
             }
-            valid.done();
             [I::V::bits(!every) == 0, I::V::bits(any) != 0]
         },
     );
     if !any {
         return in_double::<I, FOOT, COSINE>(isa, inputs, emitters, groups, places);
     }
-    // A pass of its own: exact intervals and feet together do not fit the registers.
-    if FOOT && EXACT {
-        every = find_feet::<I, COSINE, DIFFER>(isa, inputs, emitters, groups.start, places);
-    }
     if !every {
         rescue::<I, FOOT, COSINE>(isa, inputs, emitters, groups.start, places);
     }
-}
-
-/// Computes the feet of the perpendiculars of exact precision after the lit intervals; returns whether all lanes are easy.
-fn find_feet<I: Isa, const COSINE: bool, const DIFFER: bool>(
-    isa: I,
-    inputs: &Inputs<'_>,
-    emitters: EmitterRows<'_>,
-    start: usize,
-    places: &mut Places<I>,
-) -> bool {
-    isa.vectorize::<Foot<I>, _>(
-        #[cfg_attr(optimized, inline(always))]
-        || {
-            let rays = inputs.ray_groups::<I>();
-            let emitters = emitters.groups(isa);
-            let mut emitter = emitters.emitters(isa, 0);
-            let lits = places.lits.written();
-            // Equal lengths remove bounds checks.
-            let count = lits.len();
-            let (rests, valid) = (&mut places.rests.written()[..count], &mut places.valid.written()[..count]);
-            let (excesses, cosines) = (&places.excesses.written()[..count], &places.cosines.written()[..count]);
-            let (mut feet, mut alphas) = (places.feet.start(), places.alphas.start());
-            let mut every = !none(isa);
-            for record in 0..count {
-                if DIFFER {
-                    emitter = emitters.emitters(isa, record);
-                }
-                let ray = rays.lanes(isa, start + record);
-                let clipped = Clipped {
-                    lit: lits[record],
-                    rests: rests[record],
-                    excess: excesses[record],
-                    q: isa.splat(0.0),
-                    cosine: cosines[record],
-                    easy: valid[record],
-                };
-                let FoundFoot { foot, h_squared_rest, alpha_h, easy } =
-                    find_foot::<I, true, COSINE>(isa, &ray, &emitter, &clipped);
-                (every, valid[record]) = (every & easy, easy);
-                rests[record].h_squared = h_squared_rest;
-                feet.push(foot);
-                if COSINE {
-                    alphas.push(alpha_h);
-                }
-            }
-            if COSINE {
-                alphas.done();
-            }
-            feet.done();
-            I::V::bits(!every) == 0
-        },
-    )
 }
 
 /// Computes hard lanes, those that are not valid in f32, in f64.
@@ -380,6 +319,35 @@ fn in_double<I: Isa, const FOOT: bool, const COSINE: bool>(
                 cosines.done();
                 alphas.done();
             }
+        },
+    );
+}
+
+/// Computes what the feet of a block lack for a path, after hard lanes and spots.
+pub(super) fn refine_feet<I: Isa>(
+    isa: I,
+    inputs: &Inputs<'_>,
+    emitters: EmitterRows<'_>,
+    start: usize,
+    places: &mut Places<I>,
+) {
+    isa.vectorize::<Foot<I>, _>(
+        #[cfg_attr(optimized, inline(always))]
+        || {
+            let rays = inputs.ray_groups::<I>();
+            let emitters = emitters.groups(isa);
+            let mut emitter = emitters.emitters(isa, 0);
+            let feet = places.feet.written();
+            places.refined.fill(
+                feet.len(),
+                #[cfg_attr(optimized, inline(always))]
+                |record| {
+                    if emitters.differ() {
+                        emitter = emitters.emitters(isa, record);
+                    }
+                    refine(isa, &rays.lanes(isa, start + record), &emitter, &feet[record])
+                },
+            );
         },
     );
 }

@@ -77,7 +77,7 @@ impl<const K: usize> Kernel for OnGroups<'_, K> {
 
 /// What an integral needs of the geometry.
 pub(super) fn of_integral(precision: Precision) -> Wanted {
-    Wanted { precision, extent: Extent::Cosine, records: GROUPS }
+    Wanted { precision, extent: Extent::Path, records: GROUPS }
 }
 
 /// The integrals of a lane group.

@@ -50,7 +50,7 @@ impl<const WITH_WEIGHT_OR_R: bool> OfDensity for Drawing<WITH_WEIGHT_OR_R> {
         let once = SetUps::<I, D>::SIZE < GROUPS && inputs.per_ray == 1;
         let wanted = Wanted {
             precision,
-            extent: if WITH_WEIGHT_OR_R { Extent::Cosine } else { D::On::<I>::EXTENT },
+            extent: if WITH_WEIGHT_OR_R { Extent::Path } else { D::On::<I>::EXTENT },
             records: if once { GROUPS } else { SetUps::<I, D>::SIZE },
         };
         for_each_block(isa, inputs, wanted, |block| {

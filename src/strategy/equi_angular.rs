@@ -13,7 +13,7 @@
 //! Departure: the angle is measured from `a` for `u` up to 1/2 + [`BIAS`] or 1/2 - `BIAS`, so that more of the variates are
 //! measured from the end nearer to the foot of the perpendicular. From there the way is shorter, and so is its rounding error.
 //!
-//! In fast precision the angle is measured from `a` up to 1/2, polynomials are shorter, and `p_t` takes one division.
+//! In fast precision the angle is measured from `a` up to 1/2, and polynomials are shorter.
 
 use crate::density::{self, Density, Drawn, Pdf, SetUp};
 use crate::geometry::{Angle, BIAS, Extent, Geometry, Point, RayLanes};
@@ -85,11 +85,8 @@ impl<I: Isa, const EXACT: bool> Density<I> for EquiAngular<I, EXACT> {
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn pdf(&self, isa: I, geometry: Geometry<'_, I>, point: &Point<I>) -> Pdf<I> {
+    fn pdf(&self, _: I, geometry: Geometry<'_, I>, point: &Point<I>) -> Pdf<I> {
         // (3.3)
-        if Self::FULL {
-            return Pdf::over_angle(isa.splat(1.0), self.subtended, geometry, point);
-        }
         let (h, r_squared) = (geometry.foot.h, geometry.foot.r_squared(point.t_prime));
         // r^2 Theta is at least about h min(r, l), and h, r and l are at least 1e-18.
         Pdf { over_t: h / (r_squared * self.subtended), times_r2: h / self.subtended }

@@ -21,7 +21,7 @@
 //! 3. A variate stays 1e-12 of the mass away from the ends, where `N` may be 0.
 //! 4. (3.8) is scaled by a power of two where a ray runs along the emitter's plane: its squares would leave f32.
 //!
-//! In fast precision the mass is measured from `a` up to 1/2, and quotients by `r` are products with a reciprocal.
+//! In fast precision the mass is measured from `a` up to 1/2, and polynomials are shorter.
 
 use crate::density::{self, Density, Drawn, Pdf, SetUp};
 use crate::geometry::{Angle, Extent, Geometry, Point, RayLanes};
@@ -106,7 +106,7 @@ impl<I: Isa, const EXACT: bool> Density<I> for PointNormal<I, EXACT> {
         _: Option<&ChannelLanes<I>>,
     ) -> (Self, I::Mask) {
         let g = geometry;
-        let (ends, [s_a, s_b]) = g.ends_and_antiderivatives(isa, Self::FULL);
+        let (ends, [s_a, s_b]) = g.ends_and_antiderivatives(isa);
         let [n_a, n_b] = ends.n;
         let dot = g.dot_of_ends();
         let tan_half = (g.foot.h * g.lit.length) / ends.r[0].mul_add(ends.r[1], dot);
@@ -143,9 +143,6 @@ impl<I: Isa, const EXACT: bool> Density<I> for PointNormal<I, EXACT> {
     #[cfg_attr(optimized, inline(always))]
     fn pdf(&self, isa: I, geometry: Geometry<'_, I>, point: &Point<I>) -> Pdf<I> {
         // (3.10)
-        if Self::FULL {
-            return Pdf::over_angle(geometry.cosine(isa, point), self.mass, geometry, point);
-        }
         let one = isa.splat(1.0);
         let inv_r = one / point.r;
         let n = I::V::select(geometry.cosine.has_normal, point.m * inv_r, one);

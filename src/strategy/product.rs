@@ -310,6 +310,7 @@ impl<I: Isa, const K: usize> Product<I, K> {
 
 impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
     const EXTENT: Extent = Extent::Cosine;
+    const EXTENT_AT_DISTANCE: Extent = Extent::Path;
     type Place = Place<I>;
     type SetUps = Records<SetUp<I, Self>>;
 

@@ -118,7 +118,7 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
         // The ends in the order of the angle that is expanded.
         let pick = |a: I::V, b: I::V| I::V::select(mirrored, b, a);
         let start_t_prime = pick(g.foot.a, -g.foot.b);
-        let (ends, [s_a, s_b]) = g.ends_and_antiderivatives(isa, true);
+        let (ends, [s_a, s_b]) = g.ends_and_antiderivatives(isa);
         let [n_a, n_b] = ends.n;
         let (n_a, n_b, s_a, s_b) = (pick(n_a, n_b), pick(n_b, n_a), pick(s_a, -s_b), pick(-s_b, s_a));
         let theta_a = angle(isa, start_t_prime, g.foot.h);
