@@ -204,7 +204,7 @@ impl Strategy {
     ];
 
     /// Whether a sampler of this strategy can have the precision. All strategies have [`Precision::Exact`]; `EquiAngular` and
-    /// `PointNormal` also have [`Precision::Fast`], as geometry is most of their work. The others would gain less than a fifth.
+    /// `PointNormal` also have [`Precision::Fast`], as geometry is most of their work.
     #[must_use]
     pub fn has_precision(self, precision: Precision) -> bool {
         precision == Precision::Exact || matches!(self, Self::EquiAngular | Self::PointNormal)
