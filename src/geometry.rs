@@ -50,8 +50,7 @@ pub(crate) enum Extent {
     Foot,
     /// The emitter's cosine.
     Cosine,
-    /// In exact precision the digits of the foot that f32 does not hold: a transmittance multiplies their share of the path by the
-    /// optical depth.
+    /// In exact precision also [`Refined`]: a transmittance multiplies an error of the path by the optical depth.
     Path,
 }
 
@@ -118,7 +117,8 @@ pub(crate) struct Lit<I: Isa> {
     /// The distances of its ends along the ray \[m\], rounded: `t_a` and `t_b`.
     pub(crate) a: I::V,
     pub(crate) b: I::V,
-    /// `t_b - t_a` \[m\]; 0 where nothing is lit, or NaN, which no number is less than.
+    /// `t_b - t_a` \[m\]; 0 where nothing is lit. It is NaN if, besides, the ray is parallel to the emitter's plane: `x < length`
+    /// is then false.
     pub(crate) length: I::V,
 }
 

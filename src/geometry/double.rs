@@ -113,7 +113,7 @@ pub(super) fn one_over_length<I: Isa>(isa: I, q: I::Double) -> I::Double {
         .mul_add(q * q, q.mul_add(isa.splat_double(-0.5), isa.splat_double(1.0)))
 }
 
-/// What the foot of the perpendicular lacks, as computed in f32 or here.
+/// The difference between the foot of the perpendicular in f64 and the given one.
 #[cfg_attr(optimized, inline(always))]
 pub(crate) fn refine<I: Isa>(isa: I, ray: &RayLanes<I>, emitter: &EmitterLanes<I>, foot: &Foot<I>) -> Refined<I> {
     let line = Line::new(isa, ray, emitter.position);

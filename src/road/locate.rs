@@ -323,7 +323,7 @@ fn in_double<I: Isa, const FOOT: bool, const COSINE: bool>(
     );
 }
 
-/// Computes what the feet of a block lack for a path, after hard lanes and spots.
+/// Computes what the feet of a block lack for paths. It comes after hard lanes and spots, which change the feet.
 pub(super) fn refine_feet<I: Isa>(
     isa: I,
     inputs: &Inputs<'_>,
