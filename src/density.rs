@@ -1,5 +1,6 @@
 //! The interface of a sampled density to the kernels: set-up, draw, point, pdf and CDF.
 
+use crate::Precision;
 use crate::geometry::{Extent, Geometry, Point, RayLanes};
 use crate::integrand::{ChannelLanes, MediumLanes};
 use crate::simd::{Isa, Lanes, Room};
@@ -15,6 +16,8 @@ pub(crate) trait Density<I: Isa>: Copy {
     const EXTENT: Extent;
     /// The part of the geometry that the pdf and the CDF at a given distance need.
     const EXTENT_AT_DISTANCE: Extent = Self::EXTENT;
+    /// Whether the set-up depends on the precision.
+    const HAS_FAST_SET_UP: bool = false;
     /// The place of a variate, in the terms of the density; [`point`](Self::point) makes a point of the ray of it.
     type Place: Copy;
     /// Storage for the set-ups of a block. Its capacity limits the lane groups of a block where set-ups are large.
@@ -23,6 +26,7 @@ pub(crate) trait Density<I: Isa>: Copy {
     /// The set-up: what does not depend on the variate, and which lanes can be sampled. For coloured media `medium` is the mean.
     fn new(
         isa: I,
+        precision: Precision,
         ray: &RayLanes<I>,
         geometry: Geometry<'_, I>,
         medium: &MediumLanes<I>,
@@ -69,12 +73,13 @@ impl<I: Isa, D: Density<I>> SetUp<I, D> {
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn new(
         isa: I,
+        precision: Precision,
         ray: &RayLanes<I>,
         geometry: Geometry<'_, I>,
         medium: &MediumLanes<I>,
         channels: Option<&ChannelLanes<I>>,
     ) -> Self {
-        let (density, lit) = D::new(isa, ray, geometry, medium, channels);
+        let (density, lit) = D::new(isa, precision, ray, geometry, medium, channels);
         Self { density, valid: geometry.valid & medium.valid, lit }
     }
 }

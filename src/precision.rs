@@ -12,8 +12,10 @@ use std::str::FromStr;
 /// - Take `Fast` for primary rays and finite segments that pass the emitter at more than a thousandth of their length.
 ///
 /// # Accuracy
-/// Of the strategies that have both precisions, `EquiAngular` and `PointNormal`. *Ordinary scenes* are the families `generic`,
-/// `far-away`, `phase`, `medium` and `ray` of [accuracy](crate::guide::accuracy#families-of-inputs), which has all bounds.
+/// Of the strategies that have both precisions: `EquiAngular`, `PointNormal`, `Product5` and `Product9`. *Ordinary scenes* are
+/// the families `generic`, `far-away`, `phase`, `medium` and `ray` of [accuracy](crate::guide::accuracy#families-of-inputs), which
+/// has all bounds. To product densities in `Fast` the rows apply where a free path is longer than 1e-5 of the distances: on
+/// `medium`, with optical depths beyond 1e5, the CDF is within 5e-3 for 99.9 % of rays.
 ///
 /// | output | where | `Exact` | `Fast` |
 /// |---|---|---|---|
@@ -37,7 +39,8 @@ use std::str::FromStr;
 /// Where that is not enough for them, the ray is computed again in f64: where its line passes the emitter at less than 2^-14 of
 /// its distance, for unusual directions, normals and coordinates, and in `Exact` also where an end of the ray is next to the
 /// emitter's plane. Both compute spots in f64. The path of a transmittance is in f64 in `Exact`, in f32 in `Fast`; `Fast` also has
-/// shorter polynomials. Without fused multiply-add both compute all geometry in f64, and are the same.
+/// shorter polynomials, and product densities evaluate the integrand at the knots by a form with fewer operations. Without fused
+/// multiply-add both compute all geometry in f64, and are the same.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Precision {

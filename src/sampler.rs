@@ -239,7 +239,8 @@ impl Sampler {
     /// | [`Precision::Fast`] | 2e-3 for 99.9 % of rays | `near-emitter`, `peaks`, `colour` | `tests/hard_cases.rs` |
     /// | [`Precision::Fast`] | 1e-3 for 99.9 % of rays | `infinite-rays` | `tests/hard_cases.rs` |
     /// | [`Precision::Fast`] | 1e-4 for 99.9 % of rays | `random-bits` | `tests/hard_cases.rs` |
-    /// | [`Precision::Fast`] | none | `cosine` | |
+    /// | [`Precision::Fast`] | 5e-3 for 99.9 % of rays | product densities on `medium` | `tests/hard_cases.rs` |
+    /// | [`Precision::Fast`] | none | `cosine`; product densities on `random-bits` | |
     ///
     /// ```
     /// # use airlight::{Emitter, Medium, Ray, Sampler, Strategy};

@@ -114,9 +114,10 @@ impl<I: Isa> Geometry<'_, I> {
         Point { t: self.lit.a, t_prime: self.foot.a, t_prime_low: isa.splat(0.0), r: r_a, m }
     }
 
-    /// `X` and `r` \[m\] in f64 at the ends of the lit interval, given the rounded `r` there.
+    /// `X` and `r` \[m\] in f64 at the ends of the lit interval.
     #[cfg_attr(optimized, inline(always))]
-    pub(crate) fn exact_ends(&self, isa: I, [r_a, r_b]: [I::V; 2]) -> [(I::Double, I::Double); 2] {
+    pub(crate) fn exact_ends(&self, isa: I) -> [(I::Double, I::Double); 2] {
+        let [r_a, r_b] = [self.foot.r(self.foot.a), self.foot.r(self.foot.b)];
         [self.exact_end(isa, self.lit.a, self.rests.a, r_a), self.exact_end(isa, self.lit.b, self.rests.b, r_b)]
     }
 

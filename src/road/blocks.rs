@@ -39,6 +39,7 @@ pub(super) struct Block<'b, I: Isa> {
     pub(super) groups: Range<usize>,
     /// The media of the groups.
     pub(super) media: &'b MediaRows<'b>,
+    pub(super) precision: Precision,
     geometries: Geometries<'b, I>,
 }
 
@@ -121,6 +122,7 @@ pub(super) fn for_each_block<I: Isa>(
                 inputs,
                 groups: groups.start + part.start..groups.start + part.end,
                 media,
+                precision: wanted.precision,
                 geometries: geometries.part(part),
             });
         }
@@ -157,6 +159,18 @@ pub(super) fn set_up<'r, I: Isa, Home, D: Density<I>>(
     block: &Block<'_, I>,
     records: &'r mut D::SetUps,
 ) -> &'r [SetUp<I, D>] {
+    if D::HAS_FAST_SET_UP && !block.precision.is_exact::<I>() {
+        set_up_in::<I, Home, D, false>(isa, block, records)
+    } else {
+        set_up_in::<I, Home, D, true>(isa, block, records)
+    }
+}
+
+fn set_up_in<'r, I: Isa, Home, D: Density<I>, const EXACT: bool>(
+    isa: I,
+    block: &Block<'_, I>,
+    records: &'r mut D::SetUps,
+) -> &'r [SetUp<I, D>] {
     isa.vectorize::<Home, _>(
         #[cfg_attr(optimized, inline(always))]
         || {
@@ -164,7 +178,7 @@ pub(super) fn set_up<'r, I: Isa, Home, D: Density<I>>(
             records.fill(
                 block.groups.len(),
                 #[cfg_attr(optimized, inline(always))]
-                |record| for_set_up.set_up(isa, record),
+                |record| for_set_up.set_up(isa, if EXACT { Precision::Exact } else { Precision::Fast }, record),
             )
         },
     )
@@ -196,10 +210,10 @@ impl<'b, I: Isa> ForSetUp<'b, I> {
 
     /// Sets up the density of a record.
     #[cfg_attr(optimized, inline(always))]
-    pub(super) fn set_up<D: Density<I>>(&mut self, isa: I, record: usize) -> SetUp<I, D> {
+    pub(super) fn set_up<D: Density<I>>(&mut self, isa: I, precision: Precision, record: usize) -> SetUp<I, D> {
         self.media.renew(isa, record, &mut self.medium);
         let ray = self.rays.lanes(isa, self.first + record);
         let channels = ChannelGroups::lanes(self.channels.as_ref(), isa, record);
-        SetUp::new(isa, &ray, self.geometries.get(record), &self.medium, channels.as_ref())
+        SetUp::new(isa, precision, &ray, self.geometries.get(record), &self.medium, channels.as_ref())
     }
 }

@@ -171,7 +171,6 @@ impl<const K: usize> OfBlock<'_, '_, K> {
                     let (weights, nan) = (weights.groups(isa), isa.splat(f32::NAN));
                     for_each_radiance::<I, K>(
                         isa,
-                        self.precision(),
                         block,
                         block.media.means,
                         #[cfg_attr(optimized, inline(always))]

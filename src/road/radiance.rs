@@ -56,7 +56,6 @@ impl<const K: usize> Kernel for OnGroups<'_, K> {
                         let out = &mut I::groups_mut(out)[block.groups.clone()];
                         for_each_radiance::<I, K>(
                             isa,
-                            precision,
                             block,
                             block.media.of_output(column, columns),
                             #[cfg_attr(optimized, inline(always))]
@@ -94,7 +93,6 @@ pub(super) struct Integrated<I: Isa> {
 #[cfg_attr(optimized, inline(always))]
 pub(super) fn for_each_radiance<I: Isa, const K: usize>(
     isa: I,
-    precision: Precision,
     block: &Block<'_, I>,
     media: MediumRows<'_>,
     mut visit: impl FnMut(usize, Integrated<I>),
@@ -111,7 +109,7 @@ pub(super) fn for_each_radiance<I: Isa, const K: usize>(
             Rule::<K>::variable(isa, geometries.get(record), &medium)
         },
     );
-    let starts = if precision.is_exact::<I>() {
+    let starts = if block.precision.is_exact::<I>() {
         fill_starts::<I, true>(isa, block, &media, variables, &mut starts)
     } else {
         fill_starts::<I, false>(isa, block, &media, variables, &mut starts)

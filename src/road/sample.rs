@@ -61,7 +61,7 @@ impl<const WITH_WEIGHT_OR_R: bool> OfDensity for Drawing<WITH_WEIGHT_OR_R> {
                 return OfSamples::of_run(&mut out, run, |mut out| {
                     let points = at_once::<I, D, WITH_WEIGHT_OR_R>(isa, block, u, &mut points, &mut out, &mut tally);
                     if WITH_WEIGHT_OR_R {
-                        weigh(isa, precision, block, run.turns, points, &mut out);
+                        weigh(isa, block, run.turns, points, &mut out);
                     }
                 });
             }
@@ -73,7 +73,7 @@ impl<const WITH_WEIGHT_OR_R: bool> OfDensity for Drawing<WITH_WEIGHT_OR_R> {
                     let pass = Points::<I, D> { block, set_ups, turns: run.turns, places };
                     let points = pass.write::<WITH_WEIGHT_OR_R>(isa, &mut points, &mut out, &mut tally);
                     if WITH_WEIGHT_OR_R {
-                        weigh(isa, precision, block, run.turns, points, &mut out);
+                        weigh(isa, block, run.turns, points, &mut out);
                     }
                 });
             });
@@ -104,7 +104,8 @@ fn at_once<'r, I: Isa, D: Kind, const KEEP: bool>(
                     isa.prefetch(t, AHEAD);
                     isa.prefetch(pdf, AHEAD);
                 }
-                let (geometry, set_up) = (geometries.get(record), for_set_up.set_up::<D::On<I>>(isa, record));
+                let (geometry, set_up) =
+                    (geometries.get(record), for_set_up.set_up::<D::On<I>>(isa, block.precision, record));
                 let placed = Placed::new(isa, geometry, &set_up, u);
                 let sampled = point_one::<I, D>(isa, geometry, &set_up, &placed, t, pdf, &mut counted);
                 if KEEP {
@@ -247,15 +248,8 @@ fn point_one<I: Isa, D: Kind>(
 }
 
 /// Writes the weights of the points (1.9), and their distances to the emitter.
-fn weigh<I: Isa>(
-    isa: I,
-    precision: Precision,
-    block: &Block<'_, I>,
-    turns: &[Turn],
-    points: &[Sampled<I>],
-    out: &mut Samples<'_>,
-) {
-    if precision.is_exact::<I>() {
+fn weigh<I: Isa>(isa: I, block: &Block<'_, I>, turns: &[Turn], points: &[Sampled<I>], out: &mut Samples<'_>) {
+    if block.precision.is_exact::<I>() {
         weigh_in::<I, true>(isa, block, turns, points, out);
     } else {
         weigh_in::<I, false>(isa, block, turns, points, out);

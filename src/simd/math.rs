@@ -182,6 +182,53 @@ pub(crate) fn one_minus_exp<I: Isa>(isa: I, x: I::V) -> (I::V, I::V) {
     ((c(1.0) - s) - s * q, s.mul_add(q, s))
 }
 
+/// `2^-x`, shorter than [`exp`]; at least 2^-125. `most` is the largest argument.
+///
+/// - Types: f32.
+/// - Max error: 2.3 ulp where `most` is at most 0.9, 5.8 up to 1.8, 32 up to 7.2, 2.9 above; beyond 125 that of the bound.
+/// - Range: `[0, most]`.
+#[cfg_attr(optimized, inline(always))]
+pub(crate) fn exp2_neg<I: Isa>(isa: I, x: I::V, most: f32) -> I::V {
+    let squarings = squarings(most);
+    if squarings > MOST_SQUARINGS {
+        let x = x.min(isa.splat(125.0));
+        let n = round(isa, -x);
+        return horner(isa, -(x + n), EXP2) * n.pow2();
+    }
+    // A polynomial of x/2^squarings, squared so often: each squaring doubles its error.
+    let (part, mut power, mut c) = (1.0 / (1 << squarings) as f32, 1.0, EXP2_OF_PART);
+    let mut k = c.len() - 1;
+    while k > 0 {
+        k -= 1;
+        power *= part;
+        c[k] *= power;
+    }
+    let mut p = horner(isa, x, c);
+    let mut n = 0;
+    while n < squarings {
+        p = p * p;
+        n += 1;
+    }
+    p
+}
+/// Coefficients, highest degree first, of `2^f`, for `|f| <= 1/2`.
+const EXP2: [f32; 6] = [1.327_647_2e-3, 9.675_541e-3, 5.550_713e-2, 2.402_212e-1, 6.931_469_7e-1, 1.000_000_1];
+/// Coefficients, highest degree first, of `2^-y`, for `0 <= y <= LARGEST_PART`.
+const EXP2_OF_PART: [f32; 6] =
+    [-9.726_874e-4, 9.263_512e-3, -5.533_747e-2, 2.401_903_1e-1, -6.931_442_4e-1, 9.999_999_6e-1];
+const LARGEST_PART: f32 = 0.9;
+const MOST_SQUARINGS: u32 = 3;
+
+/// How often `most` is halved until it is at most [`LARGEST_PART`].
+const fn squarings(most: f32) -> u32 {
+    let (mut part, mut count) = (most, 0);
+    while part > LARGEST_PART {
+        part *= 0.5;
+        count += 1;
+    }
+    count
+}
+
 /// `exp f - 1`.
 ///
 /// - Types: f32.
@@ -263,7 +310,7 @@ mod tests {
     const ISA: Portable = Portable;
 
     #[rustfmt::skip]
-    const ALL: [Stated; 17] = [
+    const ALL: [Stated; 21] = [
         Stated { name: "angle of (1, q), short", on: (0.0, 1.0), f: |q| angle_of(ISA, q, one(), false), exact: |q| q.atan2(1.0), error: SHORT },
         Stated { name: "angle of (q, 1), short", on: (0.0, 1.0), f: |q| angle_of(ISA, one(), q, false), exact: |q| 1f64.atan2(q), error: SHORT },
         Stated { name: "angle of (-1, q), short", on: (0.0, 1.0), f: |q| angle_of(ISA, q, -one(), false), exact: |q| q.atan2(-1.0), error: SHORT },
@@ -276,6 +323,10 @@ mod tests {
         Stated { name: "sin", on: (0.0, FRAC_PI_2), f: |x| sin_cos(ISA, x).0, exact: f64::sin, error: Ulp(2.1) },
         Stated { name: "cos", on: (0.0, FRAC_PI_2), f: |x| sin_cos(ISA, x).1, exact: f64::cos, error: Absolute(1.5) },
         Stated { name: "tan", on: (0.0, FRAC_PI_4), f: |x| tan(ISA, x, true), exact: f64::tan, error: Ulp(1.5) },
+        Stated { name: "2^-x, not squared", on: (0.0, 0.9), f: |x| exp2_neg(ISA, x, 0.9), exact: |x| (-x).exp2(), error: Ulp(2.3) },
+        Stated { name: "2^-x, squared once", on: (0.0, 1.8), f: |x| exp2_neg(ISA, x, 1.8), exact: |x| (-x).exp2(), error: Ulp(5.8) },
+        Stated { name: "2^-x, most squared", on: (0.0, 7.2), f: |x| exp2_neg(ISA, x, 7.2), exact: |x| (-x).exp2(), error: Ulp(32.0) },
+        Stated { name: "2^-x, by powers", on: (0.0, 125.0), f: |x| exp2_neg(ISA, x, 300.0), exact: |x| (-x).exp2(), error: Ulp(2.9) },
         Stated { name: "exp(-x)", on: (0.0, 87.3), f: |x| exp(ISA, (-x).widen()), exact: |x| (-x).exp(), error: Ulp(1.1) },
         Stated { name: "1 - exp(-x)", on: (0.0, 88.0), f: |x| one_minus_exp(ISA, x).0, exact: |x| -(-x).exp_m1(), error: Ulp(1.2) },
         Stated { name: "exp(-x) beside it", on: (0.0, 87.3), f: |x| one_minus_exp(ISA, x).1, exact: |x| (-x).exp(), error: Ulp(1.1) },

@@ -15,6 +15,7 @@
 //!
 //! In fast precision the angle is measured from `a` up to 1/2, and polynomials are shorter.
 
+use crate::Precision;
 use crate::density::{self, Density, Drawn, Pdf, SetUp};
 use crate::geometry::{Angle, BIAS, Extent, Geometry, Point, RayLanes};
 use crate::integrand::{ChannelLanes, MediumLanes};
@@ -61,6 +62,7 @@ impl<I: Isa, const EXACT: bool> Density<I> for EquiAngular<I, EXACT> {
     #[cfg_attr(optimized, inline(always))]
     fn new(
         isa: I,
+        _: Precision,
         _: &RayLanes<I>,
         geometry: Geometry<'_, I>,
         _: &MediumLanes<I>,

@@ -23,6 +23,7 @@
 //!
 //! In fast precision the mass is measured from `a` up to 1/2, and polynomials are shorter.
 
+use crate::Precision;
 use crate::density::{self, Density, Drawn, Pdf, SetUp};
 use crate::geometry::{Angle, Extent, Geometry, Point, RayLanes};
 use crate::integrand::{ChannelLanes, MediumLanes};
@@ -100,6 +101,7 @@ impl<I: Isa, const EXACT: bool> Density<I> for PointNormal<I, EXACT> {
     #[cfg_attr(optimized, inline(always))]
     fn new(
         isa: I,
+        _: Precision,
         _: &RayLanes<I>,
         geometry: Geometry<'_, I>,
         _: &MediumLanes<I>,

@@ -31,16 +31,21 @@
 //!    resolves it.
 //! 6. `pdf` and `cdf` compute `v` and `1 - v` of a given `t` in f64: a dozen roundings, multiplied by the slope of the density,
 //!    would be most of their error.
-//! 7. In coloured media 5 and 9 knots have the mixture (9.1) of the channels' densities, other numbers the density of the mean.
+//! 7. Fast precision has (6.20), (6.21) of `seen` in place of (6.9), (6.10), a shorter exponential, and one floor: the denominator of
+//!    `q` is at least 1e-30.
+//! 8. In coloured media 5 and 9 knots have the mixture (9.1) of the channels' densities, other numbers the density of the mean.
 
 pub(crate) mod along_v;
 pub(crate) mod knots;
+mod seen;
 
-use along_v::{AlongV, At, ConeAlongV, Units, x_and_h_over_it};
+use along_v::x_and_h_over_it;
+use seen::{Lengths, OverY, Scaled};
 
+use crate::Precision;
 use crate::density::{Density, Drawn, Pdf, SetUp};
 use crate::geometry::{Extent, Geometry, Point, RayLanes};
-use crate::integrand::{ChannelLanes, Lobe, MediumLanes};
+use crate::integrand::{ChannelLanes, MediumLanes};
 use crate::simd::math::{one_minus_exp, reciprocal};
 use crate::simd::{Isa, Lanes, Number, Records, none};
 
@@ -84,9 +89,14 @@ const SHORTEST: f32 = 1e-18;
 
 #[derive(Clone, Copy)]
 pub(crate) struct Product<I: Isa, const K: usize> {
-    /// `r` at the ends.
-    r_a: I::V,
-    r_b: I::V,
+    map: Map<I>,
+    /// The density over `v` at the knots, `f_k`; its integral is 1.
+    f: [I::V; K],
+}
+
+/// The map between `v` and the points of the lit interval.
+#[derive(Clone, Copy)]
+struct Map<I: Isa> {
     /// `X` at the start.
     x_a: I::V,
     /// `h/X` at the ends.
@@ -99,8 +109,6 @@ pub(crate) struct Product<I: Isa, const K: usize> {
     inv_e: I::V,
     /// `1/(1 + e)`.
     w_0: I::V,
-    /// The density over `v` at the knots, `f_k`; its integral is 1.
-    f: [I::V; K],
 }
 
 /// The place of a variate: `v`, `1 - v` as `rest`, and the density over `v`.
@@ -184,6 +192,24 @@ impl<I: Isa, const K: usize> Product<I, K> {
         bend
     };
 
+    /// Calls `f` for each knot: compilers do not unroll a loop as long as this. At most 9.
+    #[cfg_attr(optimized, inline(always))]
+    fn for_each_knot(mut f: impl FnMut(usize)) {
+        f(0);
+        f(1);
+        f(2);
+        if K > 3 {
+            f(3);
+            f(4);
+        }
+        if K > 5 {
+            f(5);
+            f(6);
+            f(7);
+            f(8);
+        }
+    }
+
     /// The line's values `f_k` at the knots, from the integrand's values `q_k` at the places `z_k`.
     #[cfg_attr(optimized, inline(always))]
     fn line(isa: I, [dark_a, dark_b]: [I::Mask; 2], seen: &[I::V; K]) -> [I::V; K] {
@@ -217,8 +243,15 @@ impl<I: Isa, const K: usize> Product<I, K> {
         let norm = one / mass;
         let mut k = 0;
         while k < K {
-            f[k] = I::V::select(usable, f[k] * norm, one);
+            f[k] = f[k] * norm;
             k += 1;
+        }
+        if I::V::bits(!usable) != 0 {
+            let mut k = 0;
+            while k < K {
+                f[k] = I::V::select(usable, f[k], one);
+                k += 1;
+            }
         }
         f
     }
@@ -303,7 +336,7 @@ impl<I: Isa, const K: usize> Product<I, K> {
     #[cfg_attr(optimized, inline(always))]
     fn pdf_over_v(&self, isa: I, p_v: I::V, share: I::V, x: I::V, r: I::V) -> Pdf<I> {
         // In this order no intermediate result leaves f32 before the density does.
-        let over_y = (p_v * share) * (share * ((isa.splat(1.0) + self.e) * self.inv_y_c));
+        let over_y = (p_v * share) * (share * ((isa.splat(1.0) + self.map.e) * self.map.inv_y_c));
         Pdf { over_t: over_y * (x / r), times_r2: over_y * (x * r) }
     }
 }
@@ -311,12 +344,15 @@ impl<I: Isa, const K: usize> Product<I, K> {
 impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
     const EXTENT: Extent = Extent::Cosine;
     const EXTENT_AT_DISTANCE: Extent = Extent::Path;
+    /// Of 3 and 17 knots it would gain less than a fifth.
+    const HAS_FAST_SET_UP: bool = K == 5 || K == 9;
     type Place = Place<I>;
     type SetUps = Records<SetUp<I, Self>>;
 
     #[cfg_attr(optimized, inline(always))]
     fn new(
         isa: I,
+        precision: Precision,
         _: &RayLanes<I>,
         geometry: Geometry<'_, I>,
         medium: &MediumLanes<I>,
@@ -324,8 +360,6 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
     ) -> (Self, I::Mask) {
         let c = |x| isa.splat(x);
         let (g, one) = (geometry, c(1.0));
-        let Lobe { a2, b2, b_over_a, .. } = medium.lobe;
-
         // X at the ends (5.7), Y_b (5.8), Y_c (6.1), e (6.2).
         let (ends, h) = (g.ends(isa), g.foot.h);
         let [r_a, r_b] = ends.r;
@@ -333,60 +367,60 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
         let (x_a, h_x_a) = x_and_h_over_it(isa, h, inv_h, g.foot.a, r_a);
         let (x_b, h_x_b) = x_and_h_over_it(isa, h, inv_h, g.foot.b, r_b);
         let y_b = g.lit.length * ((x_a + x_b) / (r_a + r_b));
-        let reach = x_a.mul_add(c(1.5), c(1.25) * h * b_over_a);
+        let reach = x_a.mul_add(c(1.5), c(1.25) * h * medium.lobe.b_over_a);
         let inv_y_c = medium.mu_t.mul_add(c(0.45), one / reach).min(c(1.0 / SHORTEST));
         let y_c = one / inv_y_c;
         let e = y_c / y_b;
         let inv_e = y_b * inv_y_c;
         let w_0 = one / (one + e);
 
-        // h, X_a and Y_c: over Y_c, over the largest of them, and that times 1/(1 + e).
+        // h, X_a and Y_c: over Y_c, and over the largest of them.
         let (h_over_y_c, x_over_y_c) = (h * inv_y_c, x_a * inv_y_c);
         let scale = one / h_over_y_c.max(x_over_y_c).max(one);
-        let (h_over_largest, x_over_largest) = (h_over_y_c * scale, x_over_y_c * scale);
-        let (h_unit, x_unit, y_c_unit) = (w_0 * h_over_largest, w_0 * x_over_largest, w_0 * scale);
-        let units = Units { of_v: w_0, of_to_1: inv_e, h_x_a, h_x_b };
-        let m_along = AlongV::new(isa, &g.cosine.ramp(isa), w_0 * g.cosine.m_least * inv_y_c, &units);
-        let cone = ConeAlongV::new(isa, g, w_0 * inv_y_c, scale, &units);
+        let lengths =
+            Lengths { h: h_over_y_c * scale, x_a: x_over_y_c * scale, y_c: scale, inv_largest: inv_y_c * scale };
+        let map = Map { x_a, h_x_a, h_x_b, y_c, inv_y_c, e, inv_e, w_0 };
 
         let channels = channels.filter(|_| Self::MIXES);
         // q_k (6.10); of coloured media without the transmittance, which differs between channels.
         let mut seen = [one; K];
-        let mut ways = [one; K];
-        let mut k = 0;
-        while k < K {
-            let v = c(Self::SEEN[k]);
-            let to_1 = c(Self::TO_1[k]);
-            let s = e + to_1;
-            let transmittance = if channels.is_some() {
-                ways[k] = y_c * (v / s);
-                one
-            } else {
-                one_minus_exp(isa, medium.mu_t * y_c * (v / s)).1
-            };
-
-            // P, Q and m X s^2 (6.9), P^2 + Q^2 and A^2 Q^2 + B^2 P^2.
-            let p = h_unit * s;
-            let q = x_unit.mul_add(s, y_c_unit * v);
-            let at = At { v, to_1, scale: s, p, q };
-            let m = m_along.at(&at);
-            let p2 = p * p;
-            let squares = q.mul_add(q, p2).max(c(1e-18));
-            let lobe = (a2 * q).mul_add(q, b2 * p2).max(c(1e-18));
-            let mut numerator = I::V::select(g.cosine.has_normal, m.max(c(0.0)), squares);
-            if let Some(cone) = &cone {
-                numerator = numerator * cone.at(isa, &at, m, squares);
+        if precision.is_exact::<I>() || !Self::HAS_FAST_SET_UP {
+            let depth = if channels.is_some() { None } else { Some(medium.mu_t * y_c) };
+            let integrand = Scaled::new(isa, g, &medium.lobe, &map, &lengths);
+            let mut k = 0;
+            while k < K {
+                seen[k] = integrand.at(isa, depth, [Self::SEEN[k], Self::TO_1[k]]);
+                k += 1;
             }
-            seen[k] = transmittance * numerator / (lobe * (squares * lobe).sqrt());
-            k += 1;
+        } else {
+            let depth = if channels.is_some() { c(0.0) } else { medium.mu_t * y_c };
+            let integrand = OverY::new(isa, g, &medium.lobe, depth, &map, &lengths);
+            Self::for_each_knot(
+                #[cfg_attr(optimized, inline(always))]
+                |k| seen[k] = integrand.at(isa, [Self::SEEN[k], Self::TO_1[k]]),
+            );
+            if let Some(falloff) = integrand.falloff(isa, g, &map, &lengths) {
+                let mut k = 0;
+                while k < K {
+                    seen[k] = seen[k] * falloff.at(isa, &integrand, [Self::SEEN[k], Self::TO_1[k]]);
+                    k += 1;
+                }
+            }
         }
         let dark = g.dark_ends(isa, &ends, DARK);
         let f = match channels {
             None => Self::normalized(isa, Self::line(isa, dark, &seen)),
-            Some(channels) => Self::mixture(isa, dark, &seen, &ways, channels),
+            Some(channels) => {
+                let mut ways = [one; K];
+                let mut k = 0;
+                while k < K {
+                    ways[k] = y_c * (c(Self::SEEN[k]) / (e + c(Self::TO_1[k])));
+                    k += 1;
+                }
+                Self::mixture(isa, dark, &seen, &ways, channels)
+            }
         };
-        let density = Self { r_a, r_b, x_a, h_x_a, h_x_b, y_c, inv_y_c, e, inv_e, w_0, f };
-        (density, g.lit(isa) & g.bright(isa, &ends))
+        (Self { map, f }, g.lit(isa) & g.bright(isa, &ends))
     }
 
     #[cfg_attr(optimized, inline(always))]
@@ -413,15 +447,15 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
         let (g, h, one) = (geometry, geometry.foot.h, c(1.0));
         let Place { v, rest, p_v } = *place;
         // Y and Y_b - Y (6.3), X, and h/X.
-        let y_rest = self.y_c / (self.e + rest);
+        let y_rest = self.map.y_c / (self.map.e + rest);
         let y = y_rest * v;
-        let to_y_b = y_rest * rest * (one + self.inv_e);
-        let x = self.x_a + y;
+        let to_y_b = y_rest * rest * (one + self.map.inv_e);
+        let x = self.map.x_a + y;
         let h_x = h / x;
         // (5.9), (5.10), and r (5.3)
         let half = c(0.5);
-        let from_a = (half * y * self.h_x_a.mul_add(h_x, one)).min(g.lit.length);
-        let to_b = (half * to_y_b * self.h_x_b.mul_add(h_x, one)).min(g.lit.length);
+        let from_a = (half * y * self.map.h_x_a.mul_add(h_x, one)).min(g.lit.length);
+        let to_b = (half * to_y_b * self.map.h_x_b.mul_add(h_x, one)).min(g.lit.length);
         let r = half * h.mul_add(h_x, x);
         // t' from where the least cancels: X (5.3), or an end.
         let (scale_a, scale_b) = (g.foot.a.abs() + from_a, g.foot.b.abs() + to_b);
@@ -430,7 +464,7 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
         let near_end = scale_a.min(scale_b).lt(r);
         let t_prime = I::V::select(near_end, by_end, by_x).max(g.foot.a).min(g.foot.b);
         let point = g.as_rounded(g.point_between(isa, from_a, to_b, t_prime), r);
-        let share = (self.e + rest) * self.w_0;
+        let share = (self.map.e + rest) * self.map.w_0;
         let pdf = self.pdf_over_v(isa, p_v, share, x, r);
         Drawn { point, pdf, bisected: none(isa) }
     }
@@ -460,14 +494,14 @@ impl<I: Isa, const K: usize> Product<I, K> {
         let c = |x| isa.splat(x);
         let g = geometry;
         let (x, r) = g.exact_x_and_r(isa, point);
-        let [(x_a, r_a), (x_b, r_b)] = g.exact_ends(isa, [self.r_a, self.r_b]);
+        let [(x_a, r_a), (x_b, r_b)] = g.exact_ends(isa);
         // Y and Y_b - Y by (5.8)
         let over_a = reciprocal(isa, r_a + r);
         let over_b = reciprocal(isa, r_b + r);
         let y = g.way_from_a(isa, point.t).widen() * ((x_a + x) * over_a);
         let to_y_b = g.way_to_b(isa, point.t).widen() * ((x_b + x) * over_b);
         // (6.4); turn = (1 + e)/(Y + Y_c)
-        let (y_c, e) = (self.y_c.widen(), self.e.widen());
+        let (y_c, e) = (self.map.y_c.widen(), self.map.e.widen());
         let over_sum = reciprocal(isa, y + y_c);
         let turn = (e + isa.splat_double(1.0)) * over_sum;
         let v = y * turn;

@@ -30,6 +30,7 @@
 //! 4. `P` and `theta` are in f64 where a density is evaluated: the logarithms of the polynomials have slopes up to 30.
 
 use super::point_normal::{NEAREST, tan_half_at_mass};
+use crate::Precision;
 use crate::density::{Density, Drawn, Pdf, SetUp};
 use crate::expansion::{Expanded, ORDER};
 use crate::geometry::{Angle, Extent, Geometry, Point, RayLanes};
@@ -106,6 +107,7 @@ impl<I: Isa, E: Expansion<I>> Density<I> for Taylor<I, E> {
     #[cfg_attr(optimized, inline(always))]
     fn new(
         isa: I,
+        _: Precision,
         _: &RayLanes<I>,
         geometry: Geometry<'_, I>,
         medium: &MediumLanes<I>,

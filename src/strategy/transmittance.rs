@@ -14,6 +14,7 @@
 //! 2. Where `mu_t l` is below 1e-30 the density is constant: (3.1) would divide 0 by 0.
 //! 3. The argument of the logarithm is at least 1e-37, so that the pdf of `u` = 1 is not 0.
 
+use crate::Precision;
 use crate::density::{self, Density, Drawn, Pdf, SetUp};
 use crate::geometry::{Extent, Geometry, Point, RayLanes};
 use crate::integrand::{ChannelLanes, MediumLanes};
@@ -60,6 +61,7 @@ impl<I: Isa> Density<I> for Transmittance<I> {
     #[cfg_attr(optimized, inline(always))]
     fn new(
         isa: I,
+        _: Precision,
         ray: &RayLanes<I>,
         geometry: Geometry<'_, I>,
         medium: &MediumLanes<I>,

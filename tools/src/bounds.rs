@@ -37,7 +37,7 @@ const ULP: f64 = f32::EPSILON as f64 / 2.0;
 #[must_use]
 pub fn bounds(strategy: Strategy, precision: Precision, family: Family) -> Vec<Bound> {
     match precision {
-        Precision::Fast => fast::bounds(family),
+        Precision::Fast => fast::bounds(strategy, family),
         _ => exact(strategy, family),
     }
 }

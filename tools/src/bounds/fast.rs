@@ -1,9 +1,10 @@
-//! The promises of [`Precision::Fast`](airlight::Precision::Fast), the same for all strategies that have it: nothing that
-//! is not finite, nothing out of range, and what [`LIMITS`] has.
+//! The promises of [`Precision::Fast`](airlight::Precision::Fast): nothing that is not finite, nothing out of range, and what
+//! [`LIMITS`] has; of product densities in very dense media [`OF_PRODUCTS`] in its place.
 
 use super::{Bound, high_quantile};
 use crate::errors::{Errors, quantile};
 use crate::families::Family;
+use airlight::Strategy;
 
 /// A figure, and how it is read off.
 type Figure = (&'static str, fn(&Errors) -> f64);
@@ -50,12 +51,22 @@ const LIMITS: [(Family, [f64; FIGURES.len()]); Family::ALL.len()] = [
     (Family::Colour, NEAR),
 ];
 
-pub(super) fn bounds(family: Family) -> Vec<Bound> {
+/// Those of product densities where they differ: they follow the transmittance, and where a free path is shorter than the error of
+/// the lit interval (`medium` has optical depths beyond 1e5) they follow it from another start.
+const OF_PRODUCTS: [(Family, [f64; FIGURES.len()]); 2] = [
+    (Family::Medium, [1e-5, NONE, 5e-3, NONE, 5e-3, 1e4, NONE, 5e-5]),
+    (Family::RandomBits, [1e-5, NONE, NONE, NONE, NONE, NONE, NONE, NONE]),
+];
+
+pub(super) fn bounds(strategy: Strategy, family: Family) -> Vec<Bound> {
     let always = [
         Bound { figure: "nonfinite", read: |e| e.nonfinite as f64, limit: 0.0 },
         Bound { figure: "out_of_range", read: |e| e.out_of_range as f64, limit: 0.0 },
     ];
-    let limits = LIMITS.iter().filter(|(of, _)| *of == family).flat_map(|(_, limits)| FIGURES.iter().zip(limits));
+    let of_family = |table: &'static [(Family, _)]| table.iter().find(|(of, _)| *of == family);
+    let closed_form = matches!(strategy, Strategy::EquiAngular | Strategy::PointNormal);
+    let own = if closed_form { None } else { of_family(&OF_PRODUCTS) };
+    let limits = own.or_else(|| of_family(&LIMITS)).into_iter().flat_map(|(_, limits)| FIGURES.iter().zip(limits));
     let stated = limits.filter(|(_, limit)| **limit < NONE);
     always.into_iter().chain(stated.map(|(&(figure, read), &limit)| Bound { figure, read, limit })).collect()
 }
