@@ -114,6 +114,6 @@ impl<I: Isa> Pdf<I> {
     /// From a density over distance.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn over_distance(over_t: I::V, r: I::V) -> Self {
-        Self { over_t, times_r2: over_t * (r * r) }
+        Self { over_t, times_r2: (over_t * r) * r }
     }
 }

@@ -11,9 +11,10 @@
 //! Departures from this, and why:
 //!
 //! 1. With `EXACT` the path `t - t_min + r` is in f64 (1.13): the exponential multiplies its relative error by the optical depth.
-//! 2. The denominator of `rho` is (1.11), `(1 - |g|)^2 + 2 |g| (1 + s)` with `s = sin theta sign g` and `1 + s` by (1.12): nothing
+//! 2. (1.2) is multiplied in an order in which no intermediate result leaves f32 before `f` does.
+//! 3. The denominator of `rho` is (1.11), `(1 - |g|)^2 + 2 |g| (1 + s)` with `s = sin theta sign g` and `1 + s` by (1.12): nothing
 //!    cancels.
-//! 3. That denominator is at least 1e-24, for `|g|` = 1 alone, where `rho` is 0.
+//! 4. That denominator is at least 1e-24, for `|g|` = 1 alone, where `rho` is 0.
 
 use crate::expansion::Expanded;
 use crate::geometry::{Geometry, Point, RayLanes};
@@ -75,17 +76,28 @@ impl<I: Isa> MediumLanes<I> {
     }
 }
 
-/// (1.2): `mu_s T rho N` \[1/m\], with the falloff `S` of a spot in place of `N`.
+/// (1.2): `mu_s T rho N` \[1/m\], with the falloff `S` of a spot in place of `N`, over two divisors; at most `f32::MAX`.
 #[cfg_attr(optimized, inline(always))]
-pub(crate) fn integrand_r2<I: Isa, const EXACT: bool>(
+pub(crate) fn integrand_r2_over<I: Isa, const EXACT: bool>(
     isa: I,
     ray: &RayLanes<I>,
     geometry: Geometry<'_, I>,
     medium: &MediumLanes<I>,
     point: &Point<I>,
+    [of_medium, of_light]: [I::V; 2],
 ) -> I::V {
-    (medium.mu_s * transmittance::<I, EXACT>(isa, ray, geometry, medium, point))
-        * (phase(isa, geometry, medium.g, point) * geometry.intensity(isa, point))
+    let transmittance = transmittance::<I, EXACT>(isa, ray, geometry, medium, point);
+    let light = phase(isa, geometry, medium.g, point) * geometry.intensity(isa, point);
+    product(isa, medium.mu_s / of_medium, transmittance, light / of_light)
+}
+
+/// `a share c`, with `share` in \[0, 1\] and the others at least 0; at most `f32::MAX`. No intermediate result leaves f32 before the
+/// product does: the first is at least `share`, or as all factors are below 1 at least the product.
+#[cfg_attr(optimized, inline(always))]
+pub(crate) fn product<I: Isa>(isa: I, a: I::V, share: I::V, c: I::V) -> I::V {
+    let most = isa.splat(f32::MAX);
+    let (large, small) = (a.max(c).min(most), a.min(c).min(most));
+    ((large * share) * small).min(most)
 }
 
 /// (1.3): the transmittance from `t_min` over the point to the emitter.

@@ -2,7 +2,7 @@
 //! beyond all range comes out finite, in range and counted.
 
 use airlight::oracle::Scene;
-use airlight::{Emitter, Medium, Precision, Ray, Sampler, Strategy};
+use airlight::{Emitter, Integral, Medium, Nodes, Precision, Ray, Sampler, Strategy};
 use airlight_tools::backends::distinct;
 use airlight_tools::bounds::bounds;
 use airlight_tools::errors::Errors;
@@ -178,6 +178,34 @@ fn directions_not_quite_of_unit_length() {
                 let (f, exact) = (sampler.evaluate_one(&ray, &lamp, &medium, t), scene.integrand(t.into()));
                 let error = (f64::from(f) / exact - 1.0).abs() / f64::from(f32::EPSILON);
                 assert!(error <= 24.0, "{}, length {length}, t {t}: off by {error} times 2^-23", backend.name());
+            }
+        }
+    }
+}
+
+/// `mu_s T` is below all of f32 although the integrand, the weight and the integral are not: the emitter is so close.
+#[test]
+fn integrands_whose_factors_have_tiny_products() {
+    for (size, mu_s) in [(1e-15f32, 1e-32), (1e-12, 1e-28), (1e-9, 1e-28)] {
+        let medium = Medium::new(55.0 / size, mu_s, 0.6).unwrap();
+        let lamp = Emitter::point(Vec3::new(0.5, 0.2, 0.0) * size).unwrap();
+        let ray = Ray::new(Vec3::ZERO, Vec3::X, 0.0, 2.0 * size).unwrap();
+        let scene = Scene::new(&ray, &lamp, &medium);
+        for backend in distinct() {
+            let sampler = Sampler::new(Strategy::EquiAngular).with_backend(backend);
+            let sample = sampler.sample_one(&ray, &lamp, &medium, 0.6).unwrap();
+            let f = sampler.evaluate_one(&ray, &lamp, &medium, sample.t);
+            let exact = scene.integrand(sample.t.into());
+            let weight = exact / scene.pdf(Strategy::EquiAngular, sample.t.into());
+            let radiance = Integral::new(Nodes::Twelve).with_backend(backend).radiance_one(&ray, &lamp, &medium);
+            let name = format!("{}, mu_s {mu_s:e}, size {size:e}", backend.name());
+            for (what, value, exact, bound) in [
+                ("integrand", f, exact, 1e-5),
+                ("weight", sample.weight, weight, 1e-5),
+                ("integral", radiance, scene.radiance(), 1e-3),
+            ] {
+                let error = (f64::from(value) / exact - 1.0).abs();
+                assert!(error <= bound, "{what}, {name}: {value:e} in place of {exact:e}");
             }
         }
     }

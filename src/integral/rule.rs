@@ -23,7 +23,7 @@
 //! 3. `Y_c` is at least 1e-18 m, and the sum at most `f32::MAX`.
 
 use crate::geometry::{Geometry, RayLanes};
-use crate::integrand::{Lobe, MediumLanes, transmittance};
+use crate::integrand::{Lobe, MediumLanes, product, transmittance};
 use crate::simd::math::one_minus_exp;
 use crate::simd::{Isa, Lanes, Number};
 use crate::strategy::product::along_v::{AlongV, At, ConeAlongV, Units, x_and_h_over_it};
@@ -211,7 +211,7 @@ impl<const K: usize> Rule<K> {
         // The units, Y_c/(1 + e), and the 4 of (5.12) or the 2 of (5.13).
         let unit = inv_size * (w_0 * y_c_unit) * I::V::select(g.cosine.has_normal, c(4.0), c(2.0));
         let mass = (sum * unit).min(c(f32::MAX));
-        (medium.mu_s * start) * (height * mass)
+        product(isa, medium.mu_s, start, height * mass)
     }
 }
 

@@ -120,7 +120,7 @@ pub(super) fn for_each_radiance<I: Isa, const K: usize>(
         let valid = geometry.valid & medium.valid;
         let lit = valid & geometry.lit(isa);
         let radiance = Rule::<K>::radiance(isa, geometry, &medium, variable, *start);
-        visit(record, Integrated { radiance: I::V::only(lit, radiance.min(isa.splat(f32::MAX))), valid, lit });
+        visit(record, Integrated { radiance: I::V::only(lit, radiance), valid, lit });
     }
 }
 

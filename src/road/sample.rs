@@ -7,7 +7,7 @@ use crate::Precision;
 use crate::batch::{Counts, Inputs, OfRuns, OfSamples, Samples, Turn};
 use crate::density::{Density, Kind, SetUp};
 use crate::geometry::{Extent, Geometry, Point};
-use crate::integrand::{MediumLanes, integrand_r2};
+use crate::integrand::{MediumLanes, integrand_r2_over};
 use crate::simd::{GROUPS, Isa, Lanes, Machine, Records, Room};
 
 pub(crate) struct Sample;
@@ -282,8 +282,8 @@ fn weigh_in<I: Isa, const EXACT: bool>(
                     let group = block.groups.start + turn.record;
                     media.renew(isa, turn.record, &mut medium);
                     let (ray, geometry) = (rays.lanes(isa, group), geometries.get(turn.record));
-                    let f = integrand_r2::<I, EXACT>(isa, &ray, geometry, &medium, point);
-                    let value = (f / *times_r2).min(isa.splat(f32::MAX));
+                    let pdf = [isa.splat(1.0), *times_r2];
+                    let value = integrand_r2_over::<I, EXACT>(isa, &ray, geometry, &medium, point, pdf);
                     isa.store(I::V::only(*sampled & isa.splat(0.0).lt(*times_r2), value), weight);
                 }
             }

@@ -337,7 +337,7 @@ impl<I: Isa, const K: usize> Product<I, K> {
     fn pdf_over_v(&self, isa: I, p_v: I::V, share: I::V, x: I::V, r: I::V) -> Pdf<I> {
         // In this order no intermediate result leaves f32 before the density does.
         let over_y = (p_v * share) * (share * ((isa.splat(1.0) + self.map.e) * self.map.inv_y_c));
-        Pdf { over_t: over_y * (x / r), times_r2: over_y * (x * r) }
+        Pdf { over_t: over_y * (x / r), times_r2: (over_y * x) * r }
     }
 }
 
