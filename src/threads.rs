@@ -42,7 +42,10 @@ impl Threads {
     pub(crate) fn split(self) -> Option<Split> {
         match self {
             #[cfg(feature = "rayon")]
-            Self::Pool => Self::at_most(PARTS * rayon::current_num_threads()).split(),
+            Self::Pool => match rayon::current_num_threads() {
+                1 => None,
+                threads => Self::at_most(PARTS * threads).split(),
+            },
             Self::AtMost(threads) if cfg!(feature = "rayon") && threads.get() > 1 => {
                 let (low, all) = (threads.get() / 2, threads.get());
                 Some(Split { share: [low, all], threads: [Self::at_most(low), Self::at_most(all - low)] })
@@ -67,8 +70,11 @@ mod tests {
             assert_eq!((low, all), (n / 2, n));
             assert_eq!(threads, [low, n - low].map(Threads::at_most));
         }
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(3).build().unwrap();
-        let Split { share: [_, all], .. } = pool.install(|| Threads::Pool.split()).unwrap();
-        assert_eq!(all, 3 * PARTS);
+        let of_pool = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| Threads::Pool.split())
+        };
+        assert_eq!(of_pool(3).unwrap().share[1], 3 * PARTS);
+        assert!(of_pool(1).is_none(), "a pool of one thread");
     }
 }
