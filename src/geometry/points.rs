@@ -6,6 +6,9 @@
 use super::{Angle, Geometry, Point};
 use crate::simd::{Isa, Lanes, Number};
 
+/// The largest `|t'|` of an end next to the foot, as a share of `t`.
+const NEXT_TO_FOOT: f32 = 1.0 / (1 << 24) as f32;
+
 impl<I: Isa> Geometry<'_, I> {
     /// (2.8), (2.9): the point at an angle from an end. If not `exact`, `t` is computed from the place that `t'` is
     /// computed from.
@@ -117,15 +120,19 @@ impl<I: Isa> Geometry<'_, I> {
     /// `X` and `r` \[m\] in f64 at the ends of the lit interval.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn exact_ends(&self, isa: I) -> [(I::Double, I::Double); 2] {
-        let [r_a, r_b] = [self.foot.r(self.foot.a), self.foot.r(self.foot.b)];
-        [self.exact_end(isa, self.lit.a, self.rests.a, r_a), self.exact_end(isa, self.lit.b, self.rests.b, r_b)]
+        let [a, b] = [self.foot.a, self.foot.b];
+        [self.exact_end(isa, self.lit.a, self.rests.a, a), self.exact_end(isa, self.lit.b, self.rests.b, b)]
     }
 
+    /// Of the end at `t` with its remainder `rest`: `t'` is their difference to `t_h`, but next to the foot the f32, which has the
+    /// smaller error there, as that of `rest` is 2^-48 of `t`.
     #[cfg_attr(optimized, inline(always))]
-    fn exact_end(&self, isa: I, t: I::V, rest: I::V, r: I::V) -> (I::Double, I::Double) {
+    fn exact_end(&self, isa: I, t: I::V, rest: I::V, rounded: I::V) -> (I::Double, I::Double) {
         let exact = (t.widen() + rest.widen()) - self.exact_t_h();
-        let t_prime = I::V::narrow(exact);
-        let t_prime_low = I::V::narrow(exact - t_prime.widen());
+        let next_to_foot = rounded.abs().lt(t * isa.splat(NEXT_TO_FOOT));
+        let t_prime = I::V::select(next_to_foot, rounded, I::V::narrow(exact));
+        let t_prime_low = I::V::only(!next_to_foot, I::V::narrow(exact - t_prime.widen()));
+        let r = self.foot.r(rounded);
         self.exact_x_and_r(isa, &Point { t, t_prime, t_prime_low, r, m: isa.splat(0.0) })
     }
 
