@@ -11,7 +11,8 @@
 //! Departures from this, and why:
 //!
 //! 1. With `EXACT` the path `t - t_min + r` is in f64 (1.13): the exponential multiplies its relative error by the optical depth.
-//! 2. (1.2) is multiplied in an order in which no intermediate result leaves f32 before `f` does.
+//! 2. Where a part of the product (1.2) or of the density leaves f32, exact precision has their quotient in f64: it may be in the
+//!    range of f32 all the same.
 //! 3. The denominator of `rho` is (1.11), `(1 - |g|)^2 + 2 |g| (1 + s)` with `s = sin theta sign g` and `1 + s` by (1.12): nothing
 //!    cancels.
 //! 4. That denominator is at least 1e-24, for `|g|` = 1 alone, where `rho` is 0.
@@ -76,28 +77,49 @@ impl<I: Isa> MediumLanes<I> {
     }
 }
 
-/// (1.2): `mu_s T rho N` \[1/m\], with the falloff `S` of a spot in place of `N`, over two divisors; at most `f32::MAX`.
-#[cfg_attr(optimized, inline(always))]
-pub(crate) fn integrand_r2_over<I: Isa, const EXACT: bool>(
-    isa: I,
-    ray: &RayLanes<I>,
-    geometry: Geometry<'_, I>,
-    medium: &MediumLanes<I>,
-    point: &Point<I>,
-    [of_medium, of_light]: [I::V; 2],
-) -> I::V {
-    let transmittance = transmittance::<I, EXACT>(isa, ray, geometry, medium, point);
-    let light = phase(isa, geometry, medium.g, point) * geometry.intensity(isa, point);
-    product(isa, medium.mu_s / of_medium, transmittance, light / of_light)
+/// The factors of (1.2), with the falloff `S` of a spot in place of `N`.
+pub(crate) struct Factors<I: Isa> {
+    mu_s: I::V,
+    transmittance: I::V,
+    phase: I::V,
+    intensity: I::V,
 }
 
-/// `a share c`, with `share` in \[0, 1\] and the others at least 0; at most `f32::MAX`. No intermediate result leaves f32 before the
-/// product does: the first is at least `share`, or as all factors are below 1 at least the product.
-#[cfg_attr(optimized, inline(always))]
-pub(crate) fn product<I: Isa>(isa: I, a: I::V, share: I::V, c: I::V) -> I::V {
-    let most = isa.splat(f32::MAX);
-    let (large, small) = (a.max(c).min(most), a.min(c).min(most));
-    ((large * share) * small).min(most)
+impl<I: Isa> Factors<I> {
+    #[cfg_attr(optimized, inline(always))]
+    pub(crate) fn new<const EXACT: bool>(
+        isa: I,
+        ray: &RayLanes<I>,
+        geometry: Geometry<'_, I>,
+        medium: &MediumLanes<I>,
+        point: &Point<I>,
+    ) -> Self {
+        Self {
+            mu_s: medium.mu_s,
+            transmittance: transmittance::<I, EXACT>(isa, ray, geometry, medium, point),
+            phase: phase(isa, geometry, medium.g, point),
+            intensity: geometry.intensity(isa, point),
+        }
+    }
+
+    /// The product over a divisor, and the lanes where the result may have too few digits, because the divisor or a part of the
+    /// product leaves f32.
+    #[cfg_attr(optimized, inline(always))]
+    pub(crate) fn over(&self, isa: I, divisor: I::V) -> (I::V, I::Mask) {
+        let (scattered, light) = (self.mu_s * self.transmittance, self.phase * self.intensity);
+        let product = scattered * light;
+        let least = scattered.min(light).min(product).min(divisor);
+        let in_range = isa.splat(f32::MIN_POSITIVE).le(least) & product.le(isa.splat(f32::MAX));
+        (product / divisor, !in_range & isa.splat(0.0).lt(self.transmittance))
+    }
+
+    /// The integrand (1.1) over a density in f64, given the reciprocals of `r` and of the density.
+    #[cfg_attr(optimized, inline(always))]
+    pub(crate) fn in_f64(&self, inv_r: I::V, inv_density: I::V) -> I::V {
+        let product = (self.mu_s.widen() * self.transmittance.widen()) * (self.phase.widen() * self.intensity.widen());
+        let inv_r = inv_r.widen();
+        I::V::narrow((product * (inv_r * inv_r)) * inv_density.widen())
+    }
 }
 
 /// (1.3): the transmittance from `t_min` over the point to the emitter.

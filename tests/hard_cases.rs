@@ -183,29 +183,48 @@ fn directions_not_quite_of_unit_length() {
     }
 }
 
-/// `mu_s T` is below all of f32 although the integrand, the weight and the integral are not: the emitter is so close.
+/// `mu_s T`, the density times `r^2`, or `1/r^2` is beyond all of f32, although integrand, weight and integral are not.
 #[test]
-fn integrands_whose_factors_have_tiny_products() {
+fn integrands_whose_parts_leave_f32() {
+    let equi_angular = Strategy::EquiAngular;
+    let point = |x: f32, y: f32| Emitter::point(Vec3::new(x, y, 0.0)).unwrap();
+    let medium = |mu_t: f32, mu_s: f32, g: f32| Medium::new(mu_t - mu_s, mu_s, g).unwrap();
+    let mut cases = Vec::new();
     for (size, mu_s) in [(1e-15f32, 1e-32), (1e-12, 1e-28), (1e-9, 1e-28)] {
-        let medium = Medium::new(55.0 / size, mu_s, 0.6).unwrap();
-        let lamp = Emitter::point(Vec3::new(0.5, 0.2, 0.0) * size).unwrap();
-        let ray = Ray::new(Vec3::ZERO, Vec3::X, 0.0, 2.0 * size).unwrap();
+        cases.push((equi_angular, medium(55.0 / size, mu_s, 0.6), point(0.5 * size, 0.2 * size), 2.0 * size, 0.6));
+    }
+    for mu_t in [1e3f32, 1e4, 1e5, 1e6] {
+        let lamp = point(85.0 / mu_t, 0.5 / mu_t);
+        cases.push((Strategy::Transmittance, medium(mu_t, mu_t, 0.0), lamp, 200.0 / mu_t, 1.0));
+    }
+    for (mu_s, g, r) in [(1.2e-38f32, 0.999_999_9, 1e6f32), (1.2e-38, 1.0f32.next_down(), 1e5), (1e-36, 0.999_999, 1e6)]
+    {
+        cases.push((equi_angular, medium(mu_s, mu_s, g), point(r, 0.0), 0.5 * r, 0.0));
+    }
+    for (strategy, medium, lamp, length, u) in cases {
+        let ray = Ray::new(Vec3::ZERO, Vec3::X, 0.0, length).unwrap();
         let scene = Scene::new(&ray, &lamp, &medium);
         for backend in distinct() {
-            let sampler = Sampler::new(Strategy::EquiAngular).with_backend(backend);
-            let sample = sampler.sample_one(&ray, &lamp, &medium, 0.6).unwrap();
-            let f = sampler.evaluate_one(&ray, &lamp, &medium, sample.t);
-            let exact = scene.integrand(sample.t.into());
-            let weight = exact / scene.pdf(Strategy::EquiAngular, sample.t.into());
-            let radiance = Integral::new(Nodes::Twelve).with_backend(backend).radiance_one(&ray, &lamp, &medium);
-            let name = format!("{}, mu_s {mu_s:e}, size {size:e}", backend.name());
-            for (what, value, exact, bound) in [
-                ("integrand", f, exact, 1e-5),
-                ("weight", sample.weight, weight, 1e-5),
-                ("integral", radiance, scene.radiance(), 1e-3),
-            ] {
-                let error = (f64::from(value) / exact - 1.0).abs();
-                assert!(error <= bound, "{what}, {name}: {value:e} in place of {exact:e}");
+            let sampler = Sampler::new(strategy).with_backend(backend);
+            let sample = sampler.sample_one(&ray, &lamp, &medium, u).unwrap();
+            let t = f64::from(sample.t);
+            let integrand = sampler.evaluate_one(&ray, &lamp, &medium, sample.t);
+            let integral = Integral::new(Nodes::Twelve).with_backend(backend).radiance_one(&ray, &lamp, &medium);
+            // A weight where `t` resolves neither of its factors is that of the pdf.
+            let weight = scene.integrand(t) / f64::from(sample.pdf);
+            let mut outputs = vec![("integrand", integrand, scene.integrand(t), 1e-5)];
+            if strategy == equi_angular {
+                outputs.push(("weight", sample.weight, weight, 1e-5));
+                outputs.push(("integral", integral, scene.radiance(), 1e-3));
+            } else {
+                outputs.push(("weight", sample.weight, weight, 1e-4));
+            }
+            for (what, value, exact, bound) in outputs {
+                if exact > f64::from(f32::MIN_POSITIVE) {
+                    let error = (f64::from(value) / exact - 1.0).abs();
+                    let name = format!("{what}, {strategy}, {}, {medium:?}, length {length:e}", backend.name());
+                    assert!(error <= bound, "{name}: {value:e} in place of {exact:e}");
+                }
             }
         }
     }

@@ -23,7 +23,7 @@
 //! 3. `Y_c` is at least 1e-18 m, and the sum at most `f32::MAX`.
 
 use crate::geometry::{Geometry, RayLanes};
-use crate::integrand::{Lobe, MediumLanes, product, transmittance};
+use crate::integrand::{Lobe, MediumLanes, transmittance};
 use crate::simd::math::one_minus_exp;
 use crate::simd::{Isa, Lanes, Number};
 use crate::strategy::product::along_v::{AlongV, At, ConeAlongV, Units, x_and_h_over_it};
@@ -159,7 +159,8 @@ impl<const K: usize> Rule<K> {
         Variable { r_a, x_a, h_x_a, h_x_b, y_b, y_c, w_0, s_b, d, inv_size }
     }
 
-    /// (7.3): the integral of the integrand over the lit part of the ray \[1/m^2\], given the transmittance at its `start`.
+    /// (7.3): the integral of the integrand over the lit part of the ray \[1/m^2\], given the transmittance at its `start`, times a
+    /// weight.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn radiance<I: Isa>(
         isa: I,
@@ -167,6 +168,7 @@ impl<const K: usize> Rule<K> {
         medium: &MediumLanes<I>,
         variable: &Variable<I>,
         start: I::V,
+        weight: I::V,
     ) -> I::V {
         let c = |x| isa.splat(x);
         let (g, h, one) = (geometry, geometry.foot.h, c(1.0));
@@ -187,7 +189,7 @@ impl<const K: usize> Rule<K> {
             let node = Self::NODES[k];
             let v = d.mul_add(c(node.s * node.to_1), c(node.s));
             let to_1 = c(node.to_1) * d.mul_add(c(-node.s), one);
-            let weight = d.mul_add(c(node.slope), c(node.weight));
+            let share_of_node = d.mul_add(c(node.slope), c(node.weight));
             // Y/Y_c = w/share (6.3)
             let (w, share) = (w_0 * v, w_0.mul_add(to_1, s_b));
             let (_, transmittance) = one_minus_exp(isa, depth * (w / share));
@@ -205,14 +207,24 @@ impl<const K: usize> Rule<K> {
                 numerator = numerator * cone.at(isa, &at, m, squares);
             }
             // (6.10)
-            sum = (weight * transmittance).mul_add(numerator / (lobe * (squares * lobe).sqrt()), sum);
+            sum = (share_of_node * transmittance).mul_add(numerator / (lobe * (squares * lobe).sqrt()), sum);
             k += 1;
         }
         // The units, Y_c/(1 + e), and the 4 of (5.12) or the 2 of (5.13).
         let unit = inv_size * (w_0 * y_c_unit) * I::V::select(g.cosine.has_normal, c(4.0), c(2.0));
         let mass = (sum * unit).min(c(f32::MAX));
-        product(isa, medium.mu_s, start, height * mass)
+        product(isa, medium.mu_s, start, (height * weight) * mass)
     }
+}
+
+/// `a share c`, at most `f32::MAX`, with `share` in \[0, 1\] and the others at least 0. No intermediate result leaves f32 before the
+/// product does: if the larger of `a` and `c` is at least 1, the first product is at least `share`; else all are below 1, and it is
+/// at least the result.
+#[cfg_attr(optimized, inline(always))]
+fn product<I: Isa>(isa: I, a: I::V, share: I::V, c: I::V) -> I::V {
+    let most = isa.splat(f32::MAX);
+    let (large, small) = (a.max(c).min(most), a.min(c).min(most));
+    ((large * share) * small).min(most)
 }
 
 #[cfg(test)]

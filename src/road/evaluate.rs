@@ -6,7 +6,7 @@ use super::{Method, Out, Task};
 use crate::Precision;
 use crate::batch::{Columns, Counts, Inputs, OfRuns, Turn};
 use crate::geometry::Extent;
-use crate::integrand::{MediumLanes, integrand_r2_over};
+use crate::integrand::{Factors, MediumLanes};
 use crate::scene::MOST_CHANNELS;
 use crate::simd::{GROUPS, Isa, Kernel, Lanes, Machine, none};
 
@@ -69,8 +69,14 @@ fn integrands<I: Isa>(
                     let (valid, faced) = (geometry.valid & medium.valid & t.eq(t), geometry.faced(isa));
                     let inside = valid & faced & ray.t_min.le(t) & t.le(ray.end(isa));
                     let point = geometry.point_at_distance(isa, t);
-                    let f = integrand_r2_over::<I, true>(isa, &ray, geometry, &medium, &point, [point.r; 2]);
-                    isa.store(I::V::only(inside, f), out);
+                    let factors = Factors::new::<true>(isa, &ray, geometry, &medium, &point);
+                    let (mut f, imprecise) = factors.over(isa, point.r * point.r);
+                    let hard = imprecise & inside;
+                    if I::V::bits(hard) != 0 {
+                        let one = isa.splat(1.0);
+                        f = I::V::select(hard, factors.in_f64(one / point.r, one), f);
+                    }
+                    isa.store(I::V::only(inside, f.min(isa.splat(f32::MAX))), out);
                     if column == 0 {
                         tally.add::<I>(valid, valid & faced, none(isa));
                     }

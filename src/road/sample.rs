@@ -7,7 +7,7 @@ use crate::Precision;
 use crate::batch::{Counts, Inputs, OfRuns, OfSamples, Samples, Turn};
 use crate::density::{Density, Kind, SetUp};
 use crate::geometry::{Extent, Geometry, Point};
-use crate::integrand::{MediumLanes, integrand_r2_over};
+use crate::integrand::{Factors, MediumLanes};
 use crate::simd::{GROUPS, Isa, Lanes, Machine, Records, Room};
 
 pub(crate) struct Sample;
@@ -276,15 +276,25 @@ fn weigh_in<I: Isa, const EXACT: bool>(
             for (column, weight) in out.weights.iter_mut().flatten().enumerate() {
                 let media = block.media.of_output(column, columns).groups(isa);
                 let mut medium = media.media(isa, 0);
-                for ((turn, Sampled { point, times_r2, sampled }), weight) in
-                    turns.iter().zip(points).zip(I::groups_mut(weight))
+                let pdfs = I::groups(out.pdf);
+                for (((turn, Sampled { point, times_r2, sampled }), pdf), weight) in
+                    turns.iter().zip(points).zip(pdfs).zip(I::groups_mut(weight))
                 {
                     let group = block.groups.start + turn.record;
                     media.renew(isa, turn.record, &mut medium);
                     let (ray, geometry) = (rays.lanes(isa, group), geometries.get(turn.record));
-                    let pdf = [isa.splat(1.0), *times_r2];
-                    let value = integrand_r2_over::<I, EXACT>(isa, &ray, geometry, &medium, point, pdf);
-                    isa.store(I::V::only(*sampled & isa.splat(0.0).lt(*times_r2), value), weight);
+                    let factors = Factors::new::<EXACT>(isa, &ray, geometry, &medium, point);
+                    let (value, imprecise) = factors.over(isa, *times_r2);
+                    let mut value = I::V::only(isa.splat(0.0).lt(*times_r2), value);
+                    if EXACT {
+                        let pdf = isa.load(pdf);
+                        let hard = imprecise & *sampled & isa.splat(0.0).lt(pdf);
+                        if I::V::bits(hard) != 0 {
+                            let [inv_r, inv_pdf] = [point.r, pdf].map(|x| isa.splat(1.0) / x);
+                            value = I::V::select(hard, factors.in_f64(inv_r, inv_pdf), value);
+                        }
+                    }
+                    isa.store(I::V::only(*sampled, value.min(isa.splat(f32::MAX))), weight);
                 }
             }
         },
