@@ -9,7 +9,7 @@ use core::num::NonZeroUsize;
 #[non_exhaustive]
 pub enum Threads {
     /// The threads of the rayon pool that the call is made in: the global one, or that of `ThreadPool::install`. A batch of up to
-    /// 4096 values runs on the calling thread.
+    /// 4096 values runs on the calling thread; so does every batch where the pool has one thread.
     #[default]
     Pool,
     /// At most this number of them; 1 means the calling thread.

@@ -21,18 +21,18 @@
 //!
 //! Departures from this, and why:
 //!
-//! 1. Lengths at a knot are in units of the largest of `h`, `X_a`, `Y_c`, and times `1/(1 + e)`: no power of them leaves f32, for
+//! 1. In exact precision, lengths at a knot are in units of the largest of `h`, `X_a`, `Y_c`, and times `1/(1 + e)`: no power of them leaves f32, for
 //!    `e` of any size. Constant factors of `q` are left out, as the sum divides them out.
-//! 2. Floors: `Y_c` is at least 1e-18 m, `P^2 + Q^2` and `A^2 Q^2 + B^2 P^2` at least 1e-18 of these units, `m` at least 0. They
-//!    keep the quotient (6.10) finite where its terms vanish.
+//! 2. Floors: `Y_c` is at least 1e-18 m; in exact precision `P^2 + Q^2` and `A^2 Q^2 + B^2 P^2` are at least 1e-18 of these units,
+//!    `m` at least 0. They keep the quotient (6.10) finite where its terms vanish.
 //! 3. If the sum is no usable number, the density is uniform in `v`: valid, if not good.
 //! 4. `tau` stays within [1e-7, 1 - 2^-23], off the knots, where the density may be 0.
 //! 5. `point` takes `t'` from where the least cancels, an end or `X`, and weights have the `r` of the rounded `t` where `t`
 //!    resolves it.
 //! 6. `pdf` and `cdf` compute `v` and `1 - v` of a given `t` in f64: a dozen roundings, multiplied by the slope of the density,
 //!    would be most of their error.
-//! 7. Fast precision has (6.20), (6.21) of `seen` in place of (6.9), (6.10), a shorter exponential, and one floor: the denominator of
-//!    `q` is at least 1e-30.
+//! 7. Fast precision has (6.20), (6.21) of `seen` in place of (6.9), (6.10), and a shorter exponential. There the denominator of `q`
+//!    is at least 1e-30, `e` at most 1e30, and `mu_t Y_c` at most 2.25: only where `Y_c` is at its floor it would be more.
 //! 8. In coloured media 5 and 9 knots have the mixture (9.1) of the channels' densities, other numbers the density of the mean.
 
 pub(crate) mod along_v;
@@ -192,9 +192,10 @@ impl<I: Isa, const K: usize> Product<I, K> {
         bend
     };
 
-    /// Calls `f` for each knot: compilers do not unroll a loop as long as this. At most 9.
+    /// Calls `f` for each of at most 9 knots: compilers do not unroll a loop as long as this.
     #[cfg_attr(optimized, inline(always))]
     fn for_each_knot(mut f: impl FnMut(usize)) {
+        const { assert!(K <= 9 || !<Self as Density<I>>::HAS_FAST_SET_UP) };
         f(0);
         f(1);
         f(2);

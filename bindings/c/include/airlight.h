@@ -94,7 +94,7 @@ enum airlight_precision
  {
   // As exact as a float can hold, on every input.
   AIRLIGHT_PRECISION_EXACT = 0,
-  // Geometry in floats alone. `EQUI_ANGULAR`, `POINT_NORMAL`, `airlight_radiance` and `airlight_choose` have it.
+  // Geometry in floats alone. `EQUI_ANGULAR`, `POINT_NORMAL`, `PRODUCT_5`, `PRODUCT_9` and the integral have it.
   AIRLIGHT_PRECISION_FAST = 1,
 };
 #ifndef __cplusplus

@@ -64,7 +64,7 @@ pub enum airlight_strategy {
 pub enum airlight_precision {
     /// As exact as a float can hold, on every input.
     Exact = 0,
-    /// Geometry in floats alone. `EQUI_ANGULAR`, `POINT_NORMAL`, `airlight_radiance` and `airlight_choose` have it.
+    /// Geometry in floats alone. `EQUI_ANGULAR`, `POINT_NORMAL`, `PRODUCT_5`, `PRODUCT_9` and the integral have it.
     Fast = 1,
 }
 

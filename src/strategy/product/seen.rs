@@ -1,6 +1,6 @@
 //! What is seen of the integrand at the places `z_k`: `q_k` of (6.8), without constant factors, in each precision.
 //!
-//! Exact precision has everything times `s = e + 1 - z`, as (6.9) and (6.10). Fast precision has lengths as they are, with one
+//! Exact precision has lengths times `s = e + 1 - z`, as (6.9) and (6.10). Fast precision has the lengths themselves, with one
 //! division for the place and one for the result:
 //!
 //! ```text
@@ -9,8 +9,9 @@
 //! q = exp(-mu_t Y) (m X turn^2) (X^2 + h^2)^(-1/2) (A^2 X^2 + B^2 h^2)^(-3/2)     (6.21)
 //! ```
 //!
-//! With `b_0` the least `m`, `b_1 way` the rest of `m` seen along a straight way, and `c_1 = b_1 h (h/X)` of the end where `m` is
-//! least. Without a normal, `X^2 + h^2` stands in place of `m X`.
+//! `b_0` is the least `m`, `b_1 way` is `(|beta|/2) Y` from the start or `(|beta|/2) (Y_b - Y)` from the end, whichever has the
+//! least `m`, and `c_1 = b_1 h (h/X)` with the `X` of that end; this is (2.5) with (5.9) or (5.10). Without a normal, `X^2 + h^2`
+//! stands in place of `m X`. Lengths are in units of the largest of `h`, `X_a`, `Y_c` in both precisions.
 
 use super::Map;
 use super::along_v::{AlongV, At, ConeAlongV, Units};
@@ -29,9 +30,9 @@ pub(super) struct Lengths<I: Isa> {
     pub(super) inv_largest: I::V,
 }
 
-/// More than `mu_t Y_c` is by (6.1) unless `Y_c` is the least there is, in powers of 2.
+/// An upper bound of `mu_t Y_c` in powers of 2. (6.1) keeps it below 1/0.45, unless `Y_c` is at its floor.
 const MOST_DEPTH: f32 = 2.25 * LOG2_E;
-/// The largest `e` that is told from a larger one.
+/// An upper bound of `e`, with which `turn` is not infinity over infinity.
 const MOST_E: f32 = 1e30;
 
 /// (6.10), in exact precision.
@@ -52,7 +53,6 @@ impl<'g, I: Isa> Scaled<'g, I> {
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn new(isa: I, g: Geometry<'g, I>, lobe: &Lobe<I>, map: &Map<I>, lengths: &Lengths<I>) -> Self {
         let Map { h_x_a, h_x_b, inv_y_c, e, inv_e, w_0, .. } = *map;
-        let scale = lengths.y_c;
         let units = Units { of_v: w_0, of_to_1: inv_e, h_x_a, h_x_b };
         Self {
             e,
@@ -60,14 +60,14 @@ impl<'g, I: Isa> Scaled<'g, I> {
             b2: lobe.b2,
             h_unit: w_0 * lengths.h,
             x_unit: w_0 * lengths.x_a,
-            y_c_unit: w_0 * scale,
+            y_c_unit: w_0 * lengths.y_c,
             has_normal: g.cosine.has_normal,
             m_along: AlongV::new(isa, &g.cosine.ramp(isa), w_0 * g.cosine.m_least * inv_y_c, &units),
-            cone: ConeAlongV::new(isa, g, w_0 * inv_y_c, scale, &units),
+            cone: ConeAlongV::new(isa, g, w_0 * inv_y_c, lengths.y_c, &units),
         }
     }
 
-    /// `q` at the place `z`, given `z` and `1 - z`; without the transmittance if `depth`, which is `mu_t Y_c`, is not given.
+    /// `q` at the place `z`, given `z` and `1 - z`. `depth` is `mu_t Y_c`; without it the transmittance is left out.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn at(&self, isa: I, depth: Option<I::V>, [z, to_1]: [f32; 2]) -> I::V {
         let c = |x| isa.splat(x);

@@ -51,8 +51,8 @@ const LIMITS: [(Family, [f64; FIGURES.len()]); Family::ALL.len()] = [
     (Family::Colour, NEAR),
 ];
 
-/// Those of product densities where they differ: they follow the transmittance from the start of the lit interval, and the error of
-/// the start may be longer than a free path (`medium` has optical depths beyond 1e5).
+/// Those of product densities where they differ, on families with optical depths beyond 1e5: they follow the transmittance from the
+/// start of the lit interval, which is known to about 1e-7 of the distances, and this may be longer than a free path.
 const OF_PRODUCTS: [(Family, [f64; FIGURES.len()]); 3] = [
     (Family::InfiniteRays, [1e-5, NONE, 1e-3, 5e-2, 1e-3, 1e4, NONE, 5e-3]),
     (Family::Medium, [1e-5, NONE, 5e-3, NONE, 5e-3, 1e4, NONE, 5e-5]),

@@ -52,7 +52,7 @@ pub(super) fn answer(findings: &Findings<'_>) -> String {
         let gain = if least == most { most } else { format!("{least} to {most}") };
         let _ = write!(
             answer,
-            "Fast precision, which equi-angular and point-normal have, is {gain} times as fast; there it is below {fast:.1e}."
+            "Fast precision, where a strategy has it, is {gain} times as fast; there it is below {fast:.1e}."
         );
     }
     answer

@@ -144,7 +144,7 @@ def sample(
     strategy
         The density; "product-5" follows nearly the whole integrand, those with more points have less variance.
     precision
-        "exact", or "fast" for "equi-angular" and "point-normal".
+        "exact", or "fast" for "equi-angular", "point-normal", "product-5" and "product-9".
     threads
         At most so many threads; 1 is the calling one, None is one per core.
     weight, r
