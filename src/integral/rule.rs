@@ -159,8 +159,7 @@ impl<const K: usize> Rule<K> {
         Variable { r_a, x_a, h_x_a, h_x_b, y_b, y_c, w_0, s_b, d, inv_size }
     }
 
-    /// (7.3): the integral of the integrand over the lit part of the ray \[1/m^2\], given the transmittance at its `start`, times a
-    /// weight.
+    /// (7.3): the integral of the integrand over the lit part of the ray \[1/m^2\], given the transmittance at its `start`.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn radiance<I: Isa>(
         isa: I,
@@ -168,7 +167,6 @@ impl<const K: usize> Rule<K> {
         medium: &MediumLanes<I>,
         variable: &Variable<I>,
         start: I::V,
-        weight: I::V,
     ) -> I::V {
         let c = |x| isa.splat(x);
         let (g, h, one) = (geometry, geometry.foot.h, c(1.0));
@@ -189,7 +187,7 @@ impl<const K: usize> Rule<K> {
             let node = Self::NODES[k];
             let v = d.mul_add(c(node.s * node.to_1), c(node.s));
             let to_1 = c(node.to_1) * d.mul_add(c(-node.s), one);
-            let share_of_node = d.mul_add(c(node.slope), c(node.weight));
+            let weight = d.mul_add(c(node.slope), c(node.weight));
             // Y/Y_c = w/share (6.3)
             let (w, share) = (w_0 * v, w_0.mul_add(to_1, s_b));
             let (_, transmittance) = one_minus_exp(isa, depth * (w / share));
@@ -207,13 +205,13 @@ impl<const K: usize> Rule<K> {
                 numerator = numerator * cone.at(isa, &at, m, squares);
             }
             // (6.10)
-            sum = (share_of_node * transmittance).mul_add(numerator / (lobe * (squares * lobe).sqrt()), sum);
+            sum = (weight * transmittance).mul_add(numerator / (lobe * (squares * lobe).sqrt()), sum);
             k += 1;
         }
         // The units, Y_c/(1 + e), and the 4 of (5.12) or the 2 of (5.13).
         let unit = inv_size * (w_0 * y_c_unit) * I::V::select(g.cosine.has_normal, c(4.0), c(2.0));
         let mass = (sum * unit).min(c(f32::MAX));
-        product(isa, medium.mu_s, start, (height * weight) * mass)
+        product(isa, medium.mu_s, start, height * mass)
     }
 }
 

@@ -174,13 +174,9 @@ impl<const K: usize> OfBlock<'_, '_, K> {
                         block,
                         block.media.means,
                         #[cfg_attr(optimized, inline(always))]
-                        |record| {
-                            let [weight] = weights.lanes(isa, record);
-                            weight
-                        },
-                        #[cfg_attr(optimized, inline(always))]
                         |record, Integrated { radiance, valid, .. }| {
-                            visit(record, I::V::select(valid, radiance.min(isa.splat(most)), nan));
+                            let [weight] = weights.lanes(isa, record);
+                            visit(record, I::V::select(valid, (weight * radiance).min(isa.splat(most)), nan));
                         },
                     );
                 },

@@ -59,8 +59,6 @@ impl<const K: usize> Kernel for OnGroups<'_, K> {
                             block,
                             block.media.of_output(column, columns),
                             #[cfg_attr(optimized, inline(always))]
-                            |_| isa.splat(1.0),
-                            #[cfg_attr(optimized, inline(always))]
                             |record, Integrated { radiance, valid, lit }| {
                                 isa.store(radiance, &mut out[record]);
                                 if column == 0 {
@@ -90,14 +88,13 @@ pub(super) struct Integrated<I: Isa> {
     pub(super) lit: I::Mask,
 }
 
-/// Calls `visit` with the integrals of each lane group of a block in some media, times its weights: a pass for the variable, one
-/// for the transmittance at its start, and one for the nodes.
+/// Calls `visit` with the integrals of each lane group of a block in some media: a pass for the variable, one for the
+/// transmittance at its start, and one for the nodes.
 #[cfg_attr(optimized, inline(always))]
 pub(super) fn for_each_radiance<I: Isa, const K: usize>(
     isa: I,
     block: &Block<'_, I>,
     media: MediumRows<'_>,
-    weight: impl Fn(usize) -> I::V,
     mut visit: impl FnMut(usize, Integrated<I>),
 ) {
     let media = media.groups(isa);
@@ -122,7 +119,7 @@ pub(super) fn for_each_radiance<I: Isa, const K: usize>(
         media.renew(isa, record, &mut medium);
         let valid = geometry.valid & medium.valid;
         let lit = valid & geometry.lit(isa);
-        let radiance = Rule::<K>::radiance(isa, geometry, &medium, variable, *start, weight(record));
+        let radiance = Rule::<K>::radiance(isa, geometry, &medium, variable, *start);
         visit(record, Integrated { radiance: I::V::only(lit, radiance), valid, lit });
     }
 }

@@ -311,7 +311,7 @@ mod tests {
     const ISA: Portable = Portable;
 
     #[rustfmt::skip]
-    const ALL: [Stated; 21] = [
+    const ALL: [Stated; 22] = [
         Stated { name: "angle of (1, q), short", on: (0.0, 1.0), f: |q| angle_of(ISA, q, one(), false), exact: |q| q.atan2(1.0), error: SHORT },
         Stated { name: "angle of (q, 1), short", on: (0.0, 1.0), f: |q| angle_of(ISA, one(), q, false), exact: |q| 1f64.atan2(q), error: SHORT },
         Stated { name: "angle of (-1, q), short", on: (0.0, 1.0), f: |q| angle_of(ISA, q, -one(), false), exact: |q| q.atan2(-1.0), error: SHORT },
