@@ -9,7 +9,14 @@ use std::str::FromStr;
 ///
 /// - Take `Exact` unless the sampler shows in a profile, and always for infinite rays, emitters on the ray, and distances that
 ///   are compared or stored.
-/// - Take `Fast` for primary rays and finite segments that pass the emitter at more than a thousandth of their length.
+/// - Take `Fast` for rays that end and pass the emitter at more than a thousandth of their length.
+///
+/// ```
+/// # use airlight::{Precision, Sampler, Strategy};
+/// let sampler = Sampler::new(Strategy::Product5).with_precision(Precision::Fast)?;
+/// # assert_eq!(sampler.precision(), Precision::Fast);
+/// # Ok::<(), airlight::Error>(())
+/// ```
 ///
 /// # Accuracy
 /// Of the strategies that have both precisions: `EquiAngular`, `PointNormal`, `Product5` and `Product9`. *Ordinary scenes* are
