@@ -146,7 +146,7 @@ impl Canvas<'_> {
         Ok(())
     }
 
-    /// A strategy's marker.
+    /// A strategy's marker; names keep off it.
     pub(super) fn marker(&mut self, strategy: Strategy, point: (f64, f64)) -> Result<()> {
         self.marker_of(strategy, Precision::Exact, point)
     }
@@ -160,6 +160,8 @@ impl Canvas<'_> {
             + Polygon::new(corners, fill.filled())
             + PathElement::new(edge, stroke(palette::colour(strategy), 2 * FINE));
         self.chart.draw_series(once(marker)).map_err(failed)?;
+        let ((x, y), half) = (self.chart.backend_coord(&self.place(point)), MARKER / 2);
+        self.taken.push(Area([x - half, y - half, x + half, y + half]));
         Ok(())
     }
 
