@@ -124,8 +124,8 @@ impl<I: Isa> Geometry<'_, I> {
         [self.exact_end(isa, self.lit.a, self.rests.a, a), self.exact_end(isa, self.lit.b, self.rests.b, b)]
     }
 
-    /// Of the end at `t` with its remainder `rest`: `t'` is their difference to `t_h`, but next to the foot the f32, which has the
-    /// smaller error there, as that of `rest` is 2^-48 of `t`.
+    /// Of the end at `t` with the remainder `rest`, given `t'` as rounded. `t'` is `t + rest - t_h`; next to the foot it is the
+    /// rounded one, as the error of `rest` is 2^-48 of `t`.
     #[cfg_attr(optimized, inline(always))]
     fn exact_end(&self, isa: I, t: I::V, rest: I::V, rounded: I::V) -> (I::Double, I::Double) {
         let exact = (t.widen() + rest.widen()) - self.exact_t_h();

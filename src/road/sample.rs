@@ -288,7 +288,7 @@ fn weigh_in<I: Isa, const EXACT: bool>(
                     let mut value = I::V::only(isa.splat(0.0).lt(*times_r2), value);
                     if EXACT {
                         let pdf = isa.load(pdf);
-                        let hard = imprecise & *sampled & isa.splat(0.0).lt(pdf);
+                        let hard = imprecise & *sampled & isa.splat(f32::MIN_POSITIVE).le(pdf);
                         if I::V::bits(hard) != 0 {
                             let [inv_r, inv_pdf] = [point.r, pdf].map(|x| isa.splat(1.0) / x);
                             value = I::V::select(hard, factors.in_f64(inv_r, inv_pdf), value);
