@@ -287,7 +287,10 @@ fn spots_have_both_cosines() {
 
 #[test]
 fn what_there_is_not_is_said() {
-    refuses(Sample, Unavailable, "the strategy product-5 has no fast precision", |c| c.options.precision = 1);
+    refuses(Sample, Unavailable, "the strategy product-3 has no fast precision", |c| {
+        c.options.strategy = airlight_strategy::Product3 as u32;
+        c.options.precision = 1;
+    });
     if airlight_backend_name(airlight_backend::Avx512 as u32).is_null() {
         refuses(Sample, Unavailable, "options.backend is 3", |c| c.options.backend = 3);
     }
