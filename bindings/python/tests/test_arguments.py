@@ -147,7 +147,7 @@ BAD = {
     "t_max": ["far", {}, [object()]],
     "u": [np.zeros((5, 0)), np.zeros((1, 1, 1)), np.zeros(2, object), OnDevice()],
     "strategy": ["", "product-4"],
-    "precision": ["exactly", "fast"],
+    "precision": ["exactly", ""],
     "threads": [0, -1],
 }
 
@@ -156,6 +156,11 @@ BAD = {
 def test_a_bad_argument_is_named(name, value):
     with pytest.raises(ValueError, match=rf"^{name}\b"):
         airlight.sample(**SCENE | {"u": 0.5, name: value})
+
+
+def test_a_strategy_without_fast_precision_is_named():
+    with pytest.raises(ValueError, match="^precision: .*product-3"):
+        airlight.sample(**SCENE, u=0.5, strategy="product-3", precision="fast")
 
 
 @pytest.mark.parametrize("name", ["origin", "direction", "t_min", "t_max", "u", "emitter", "medium"])
