@@ -16,7 +16,8 @@ pub(crate) trait Density<I: Isa>: Copy {
     const EXTENT: Extent;
     /// The part of the geometry that the pdf and the CDF at a given distance need.
     const EXTENT_AT_DISTANCE: Extent = Self::EXTENT;
-    /// Whether the set-up depends on the precision.
+    /// Whether the set-up depends on the precision; then the set-up alone is compiled for both. A density of which more depends on it
+    /// has a type for each precision.
     const HAS_FAST_SET_UP: bool = false;
     /// The place of a variate, in the terms of the density; [`point`](Self::point) makes a point of the ray of it.
     type Place: Copy;

@@ -103,14 +103,14 @@ impl<I: Isa> Factors<I> {
     }
 
     /// The product over a divisor, and the lanes where the result may have too few digits, because the divisor or a part of the
-    /// product leaves f32.
+    /// product leaves f32. Lanes without light or transmittance are not among them: their product is 0.
     #[cfg_attr(optimized, inline(always))]
     pub(crate) fn over(&self, isa: I, divisor: I::V) -> (I::V, I::Mask) {
         let (scattered, light) = (self.mu_s * self.transmittance, self.phase * self.intensity);
         let product = scattered * light;
         let least = scattered.min(light).min(product).min(divisor);
         let in_range = isa.splat(f32::MIN_POSITIVE).le(least) & product.le(isa.splat(f32::MAX));
-        (product / divisor, !in_range & isa.splat(0.0).lt(self.transmittance))
+        (product / divisor, !in_range & isa.splat(0.0).lt(self.transmittance.min(self.intensity)))
     }
 
     /// The integrand (1.1) over a density in f64, given the reciprocals of `r` and of the density.

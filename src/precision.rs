@@ -9,7 +9,7 @@ use std::str::FromStr;
 ///
 /// - Take `Exact` unless the sampler shows in a profile, and always for infinite rays, emitters on the ray, and distances that
 ///   are compared or stored.
-/// - Take `Fast` for rays that end and pass the emitter at more than a thousandth of their length.
+/// - Take `Fast` for finite rays that pass the emitter at more than a thousandth of their length.
 ///
 /// ```
 /// # use airlight::{Precision, Sampler, Strategy};
@@ -23,9 +23,10 @@ use std::str::FromStr;
 /// the families `generic`, `far-away`, `phase`, `medium` and `ray` of [accuracy](crate::guide::accuracy#families-of-inputs), which
 /// has all bounds.
 ///
-/// Product densities follow the transmittance from the start of the lit part of a ray. Where an emitter's plane cuts the ray,
-/// `Fast` knows that start to about 1e-7 of the distances, and their CDF is off by this over a free path: the rows below are met
-/// where a free path is longer than 1/50 of the distances, or the emitter faces the whole ray.
+/// Product densities follow the transmittance from the start of the lit part of a ray. Where an emitter's plane cuts the ray, that
+/// start has an error of about 1e-7 of the distances in `Fast`. The CDF then has an error of about 1e-7 times the distances, divided
+/// by the free path. So the rows below are met where a free path is longer than 1/50 of the distances, or the emitter faces the
+/// whole ray.
 ///
 /// | output | where | `Exact` | `Fast` |
 /// |---|---|---|---|

@@ -286,13 +286,12 @@ fn weigh_in<I: Isa, const EXACT: bool>(
                     let factors = Factors::new::<EXACT>(isa, &ray, geometry, &medium, point);
                     let (value, imprecise) = factors.over(isa, *times_r2);
                     let mut value = I::V::only(isa.splat(0.0).lt(*times_r2), value);
-                    if EXACT {
+                    let hard = imprecise & *sampled;
+                    if EXACT && I::V::bits(hard) != 0 {
                         let pdf = isa.load(pdf);
-                        let hard = imprecise & *sampled & isa.splat(f32::MIN_POSITIVE).le(pdf);
-                        if I::V::bits(hard) != 0 {
-                            let [inv_r, inv_pdf] = [point.r, pdf].map(|x| isa.splat(1.0) / x);
-                            value = I::V::select(hard, factors.in_f64(inv_r, inv_pdf), value);
-                        }
+                        let [inv_r, inv_pdf] = [point.r, pdf].map(|x| isa.splat(1.0) / x);
+                        let has_inverse = isa.splat(f32::MIN_POSITIVE).le(pdf);
+                        value = I::V::select(hard & has_inverse, factors.in_f64(inv_r, inv_pdf), value);
                     }
                     isa.store(I::V::only(*sampled, value.min(isa.splat(f32::MAX))), weight);
                 }

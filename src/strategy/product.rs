@@ -32,7 +32,7 @@
 //! 6. `pdf` and `cdf` compute `v` and `1 - v` of a given `t` in f64: a dozen roundings, multiplied by the slope of the density,
 //!    would be most of their error.
 //! 7. Fast precision has (6.20), (6.21) of `seen` in place of (6.9), (6.10), and a shorter exponential. There the denominator of `q`
-//!    is at least 1e-30, `e` at most 1e30, and `mu_t Y_c` at most 2.25: only where `Y_c` is at its floor it would be more.
+//!    is at least 1e-30, `e` at most 1e30, and `mu_t Y_c` at most 2.25, which it exceeds only where `Y_c` is at its floor.
 //! 8. In coloured media 5 and 9 knots have the mixture (9.1) of the channels' densities, other numbers the density of the mean.
 
 pub(crate) mod along_v;
@@ -40,7 +40,7 @@ pub(crate) mod knots;
 mod seen;
 
 use along_v::x_and_h_over_it;
-use seen::{Lengths, OverY, Scaled};
+use seen::{Lengths, Scaled, Unscaled};
 
 use crate::Precision;
 use crate::density::{Density, Drawn, Pdf, SetUp};
@@ -385,8 +385,8 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
         let channels = channels.filter(|_| Self::MIXES);
         // q_k (6.10); of coloured media without the transmittance, which differs between channels.
         let mut seen = [one; K];
+        let depth = if channels.is_some() { None } else { Some(medium.mu_t * y_c) };
         if precision.is_exact::<I>() || !Self::HAS_FAST_SET_UP {
-            let depth = if channels.is_some() { None } else { Some(medium.mu_t * y_c) };
             let integrand = Scaled::new(isa, g, &medium.lobe, &map, &lengths);
             let mut k = 0;
             while k < K {
@@ -394,8 +394,7 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
                 k += 1;
             }
         } else {
-            let depth = if channels.is_some() { c(0.0) } else { medium.mu_t * y_c };
-            let integrand = OverY::new(isa, g, &medium.lobe, depth, &map, &lengths);
+            let integrand = Unscaled::new(isa, g, &medium.lobe, depth, &map, &lengths);
             Self::for_each_knot(
                 #[cfg_attr(optimized, inline(always))]
                 |k| seen[k] = integrand.at(isa, [Self::SEEN[k], Self::TO_1[k]]),
