@@ -385,8 +385,8 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
         let channels = channels.filter(|_| Self::MIXES);
         // q_k (6.10); of coloured media without the transmittance, which differs between channels.
         let mut seen = [one; K];
-        let depth = if channels.is_some() { None } else { Some(medium.mu_t * y_c) };
         if precision.is_exact::<I>() || !Self::HAS_FAST_SET_UP {
+            let depth = if channels.is_some() { None } else { Some(medium.mu_t * y_c) };
             let integrand = Scaled::new(isa, g, &medium.lobe, &map, &lengths);
             let mut k = 0;
             while k < K {
@@ -394,6 +394,8 @@ impl<I: Isa, const K: usize> Density<I> for Product<I, K> {
                 k += 1;
             }
         } else {
+            // 0 leaves the transmittance out: a branch at every knot would take longer than its exponential.
+            let depth = if channels.is_some() { c(0.0) } else { medium.mu_t * y_c };
             let integrand = Unscaled::new(isa, g, &medium.lobe, depth, &map, &lengths);
             Self::for_each_knot(
                 #[cfg_attr(optimized, inline(always))]

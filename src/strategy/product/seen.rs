@@ -104,8 +104,8 @@ pub(super) struct Unscaled<I: Isa> {
     x_a: I::V,
     /// `Y_c/(1 + e)`.
     y_w: I::V,
-    /// `mu_t Y_c/(1 + e)` in powers of 2; none if the transmittance is left out.
-    depth: Option<I::V>,
+    /// `mu_t Y_c/(1 + e)` in powers of 2.
+    depth: I::V,
     /// The numbers of (6.20); without a normal those of `X^2 + h^2`.
     rising: I::Mask,
     b_0: I::V,
@@ -115,13 +115,13 @@ pub(super) struct Unscaled<I: Isa> {
 }
 
 impl<I: Isa> Unscaled<I> {
-    /// `depth` is `mu_t Y_c`; without it the transmittance is left out.
+    /// `depth` is `mu_t Y_c`, or 0 to leave the transmittance out.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn new(
         isa: I,
         g: Geometry<'_, I>,
         lobe: &Lobe<I>,
-        depth: Option<I::V>,
+        depth: I::V,
         map: &Map<I>,
         lengths: &Lengths<I>,
     ) -> Self {
@@ -131,7 +131,7 @@ impl<I: Isa> Unscaled<I> {
         let e = e.min(c(MOST_E));
         let h2 = h * h;
         let y_w = y_c * w_0;
-        let depth = depth.map(|depth| (depth * c(LOG2_E)).min(c(MOST_DEPTH)) * w_0);
+        let depth = (depth * c(LOG2_E)).min(c(MOST_DEPTH)) * w_0;
         let rising = g.cosine.rising(isa);
         let half_slope = c(0.5) * g.cosine.beta.abs();
         let b_0 = g.cosine.m_least * inv_largest;
@@ -173,10 +173,7 @@ impl<I: Isa> Unscaled<I> {
         let x2 = x * x;
         let squares = x2 + self.h2;
         let lobe = self.a2.mul_add(x2, self.b2_h2);
-        let transmittance = match self.depth {
-            Some(depth) => exp2_neg(isa, depth * w, MOST_DEPTH * (z[0] / z[1])),
-            None => c(1.0),
-        };
+        let transmittance = exp2_neg(isa, self.depth * w, MOST_DEPTH * (z[0] / z[1]));
         (transmittance * m_x) * (turn * turn) / (lobe * (squares * lobe).sqrt()).max(c(1e-30))
     }
 
