@@ -59,7 +59,7 @@ pub enum Strategy {
     /// | | |
     /// |---|---|
     /// | use | to combine with another density (multiple importance sampling): it knows no emitter, and so misses no other light |
-    /// | cost | 3.1 ns; 3.3 with 8 samples per ray |
+    /// | cost | 3.0 ns; 3.2 with 8 samples per ray |
     /// | variance | median 1.9, p99 without bound, near an emitter 17 |
     /// | equations | [3.1](crate::guide::mathematics#31-transmittance) |
     Transmittance,
@@ -74,7 +74,7 @@ pub enum Strategy {
     /// | | |
     /// |---|---|
     /// | use | point emitters in thin media with `abs(g)` below 0.3, where the sampler shows in a profile |
-    /// | cost | 3.9 ns, in fast precision 2.4; 3.2 with 8 samples per ray |
+    /// | cost | 3.8 ns, in fast precision 2.4; 3.0 with 8 samples per ray |
     /// | variance | median 0.38, p99 7e4, near an emitter 1.2; the variation of `T`, `rho` and `N` stays in the weight |
     /// | equations | [3.2](crate::guide::mathematics#32-equi-angular), Kulla and Fajardo (2012) |
     EquiAngular,
@@ -89,7 +89,7 @@ pub enum Strategy {
     /// | | |
     /// |---|---|
     /// | use | surfaces that emit, in thin media with `abs(g)` below 0.3, where the sampler shows in a profile |
-    /// | cost | 5.3 ns, in fast precision 3.8; 3.9 with 8 samples per ray |
+    /// | cost | 5.1 ns, in fast precision 3.6; 3.8 with 8 samples per ray |
     /// | variance | median 0.16, p99 7e8, near an emitter 1.4; bounded by that of `T` and `rho`, which vary little in thin media |
     /// | equations | [3.3](crate::guide::mathematics#33-point-normal), (21) |
     PointNormal,
@@ -105,7 +105,7 @@ pub enum Strategy {
     /// | | |
     /// |---|---|
     /// | use | to compare with the paper: a product density costs less and has a smaller variance, except in single scenes |
-    /// | cost | 18 ns; 11 with 8 samples per ray |
+    /// | cost | 17 ns; 11 with 8 samples per ray |
     /// | variance | median 0.084, p99 7e8, near an emitter 0.73 |
     /// | equations | [4](crate::guide::mathematics#4-taylor-densities): 4.1, 4.2, 4.5; (4)-(11), (21)-(30) |
     TaylorTransmittance,
@@ -121,7 +121,7 @@ pub enum Strategy {
     /// | | |
     /// |---|---|
     /// | use | to compare with the paper: a product density costs less and has a smaller variance, except in single scenes |
-    /// | cost | 17 ns; 11 with 8 samples per ray |
+    /// | cost | 16 ns; 10 with 8 samples per ray |
     /// | variance | median 0.033, p99 7e8, near an emitter 0.18 |
     /// | equations | [4](crate::guide::mathematics#4-taylor-densities): 4.3-4.5; (13)-(30) |
     TaylorPhase,
@@ -135,7 +135,7 @@ pub enum Strategy {
     /// | | |
     /// |---|---|
     /// | use | seldom: `Product5` costs 2 ns more |
-    /// | cost | 8.9 ns; 4.2 with 8 samples per ray |
+    /// | cost | 8.5 ns; 4.0 with 8 samples per ray |
     /// | variance | median 0.013, p99 0.25, near an emitter 7.1e-3 |
     /// | equations | [5](crate::guide::mathematics#5-the-half-angle-variable), [6](crate::guide::mathematics#6-the-product-density) |
     Product3,
@@ -155,7 +155,7 @@ pub enum Strategy {
     /// | | |
     /// |---|---|
     /// | use | the default: one sample per ray and emitter, and all media. In four rendered scenes, shadows included, it is 1.5 to 38 times as efficient as `EquiAngular` ([choosing](crate::guide::choosing#strategies)) |
-    /// | cost | 11 ns, in fast precision 8.5; 4.7 with 8 samples per ray |
+    /// | cost | 11 ns, in fast precision 8.2; 4.5 with 8 samples per ray |
     /// | variance | median 0.0021, p99 0.022, near an emitter 6.7e-4 |
     /// | equations | [5](crate::guide::mathematics#5-the-half-angle-variable), [6](crate::guide::mathematics#6-the-product-density), [9](crate::guide::mathematics#9-colour); our derivation |
     #[default]
@@ -169,7 +169,7 @@ pub enum Strategy {
     /// | | |
     /// |---|---|
     /// | use | several samples per ray and emitter in one call: they share the set-up |
-    /// | cost | 15 ns, in fast precision 12; 5.5 with 8 samples per ray |
+    /// | cost | 14 ns, in fast precision 11; 5.3 with 8 samples per ray |
     /// | variance | median 2.4e-4, p99 3.6e-3, near an emitter 5.2e-5 |
     /// | equations | [5](crate::guide::mathematics#5-the-half-angle-variable), [6](crate::guide::mathematics#6-the-product-density), [9](crate::guide::mathematics#9-colour) |
     Product9,
@@ -183,7 +183,7 @@ pub enum Strategy {
     /// | | |
     /// |---|---|
     /// | use | many samples per ray, without shadows: with shadows it is no better than `Product9` |
-    /// | cost | 23 ns; 8.0 with 8 samples per ray |
+    /// | cost | 22 ns; 7.7 with 8 samples per ray |
     /// | variance | median 2.2e-5, p99 1.2e-3, near an emitter 4.5e-6 |
     /// | equations | [5](crate::guide::mathematics#5-the-half-angle-variable), [6](crate::guide::mathematics#6-the-product-density) |
     Product17,
